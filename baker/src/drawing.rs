@@ -1,0 +1,71 @@
+//! The drawing as the baker sees it: shapes and patches in painter's order, in canvas space
+//! (SVG user units, origin top left, y down, the canvas being `[0, width] x [0, height]`).
+
+use kurbo::{BezPath, Rect};
+use vtex_format::{Image, Warning};
+
+/// A whole drawing, back to front.
+#[derive(Debug)]
+pub(crate) struct Drawing {
+    /// Width and height of the canvas.
+    pub(crate) canvas_size: [f64; 2],
+    /// Back to front.
+    pub(crate) items: Vec<Item>,
+    /// What was approximated or left out.
+    pub(crate) warnings: Vec<Warning>,
+}
+
+/// One thing painted.
+#[derive(Debug)]
+pub(crate) enum Item {
+    /// Geometry with a solid colour.
+    Shape(Shape),
+    /// A subtree that is not yet geometry.
+    Patch(Patch),
+}
+
+/// A filled region with one colour. Strokes arrive here already expanded.
+#[derive(Debug)]
+pub(crate) struct Shape {
+    /// Closed contours.
+    pub(crate) outline: BezPath,
+    /// Inside test.
+    pub(crate) fill_rule: FillRule,
+    /// Straight alpha, sRGB-encoded, every opacity folded in.
+    pub(crate) color: [f32; 4],
+    /// Where it comes from.
+    pub(crate) source: ShapeSource,
+    /// `id` of the element or its nearest named ancestor, may be empty.
+    pub(crate) element: String,
+}
+
+/// Which half of an SVG path a shape is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ShapeSource {
+    /// Its interior.
+    Fill,
+    /// Its expanded stroke.
+    Stroke,
+}
+
+/// Inside test, SVG 2 sec. 13.3.2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum FillRule {
+    /// Winding not zero.
+    NonZero,
+    /// Winding odd.
+    EvenOdd,
+}
+
+/// A subtree as a raster image at its place in the painter's order.
+#[derive(Debug)]
+pub(crate) struct Patch {
+    /// Where it lies on the canvas.
+    pub(crate) rect: Rect,
+    /// Its texels and mips.
+    pub(crate) image: Image,
+    /// Why it is not geometry, such as `linearGradient`.
+    pub(crate) feature: String,
+    /// `id` of the element, may be empty.
+    pub(crate) element: String,
+}

@@ -1,0 +1,16 @@
+//! Why a bake failed and who must act.
+
+/// Why an SVG could not be baked.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum BakeError {
+    /// The input is not an SVG that can be read.
+    #[error("not a usable SVG: {0}")]
+    Svg(String),
+    /// An option is out of its range.
+    #[error("option out of range: {0}")]
+    Parameter(String),
+    /// A budget would be exceeded.
+    #[error("limit exceeded: {0}")]
+    Limit(String),
+}

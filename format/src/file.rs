@@ -1,0 +1,30 @@
+//! A whole file as a value.
+
+use crate::{Image, LayerRecord, Meta, PaintRecord, Provenance, ShaderBlob, ShapeRecord, SpecKey};
+
+/// One vector texture, read and checked or about to be written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VtexFile {
+    /// Canvas, grid and sampler settings.
+    pub meta: Meta,
+    /// Key of the specialised shader.
+    pub spec: SpecKey,
+    /// The specialised shader.
+    pub shader: ShaderBlob,
+    /// Paints, deduplicated.
+    pub paints: Vec<PaintRecord>,
+    /// Shapes in painter's order.
+    pub shapes: Vec<ShapeRecord>,
+    /// Layers, back to front.
+    pub layers: Vec<LayerRecord>,
+    /// One word a cell, row by row from the top: [`crate::CellWord`].
+    pub cells: Vec<u32>,
+    /// The cells' lists: [`crate::Entry`].
+    pub entries: Vec<u32>,
+    /// MSDF tiles, layer by layer: [`LayerRecord`].
+    pub tiles: Vec<u8>,
+    /// Raster images; with [`crate::Features::MIPS`] the first is the canvas itself.
+    pub images: Vec<Image>,
+    /// How it was baked; `None` when the section was left out.
+    pub provenance: Option<Provenance>,
+}
