@@ -1,6 +1,6 @@
 //! Why a bake failed and who must act.
 
-/// Why an SVG could not be baked.
+/// Why an SVG could not be baked. The text is one line for people.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum BakeError {
