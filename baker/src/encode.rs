@@ -7,6 +7,8 @@ use vtex_format::{
     Provenance, SamplerSettings, ShapeRecord, ShapeReport, VtexFile, Warning, WarningCode,
 };
 
+use vtex_shaders::{SpecParts, shader_blob, spec_key_from_parts};
+
 use crate::{
     cells::{CellInput, CellLists, build_cells},
     classify::{Distances, ShapeCells, classify},
@@ -85,21 +87,32 @@ pub(crate) fn assemble(
         paint: paints.intern(config.stroke_color.unwrap_or([0.0, 0.0, 0.0, 1.0])),
     });
     let warnings = warnings(&mut drawing, &placed, &packing, &lists);
-    let mut file = VtexFile {
-        meta: meta(&drawing, config, &lattice, &scales, outline),
-        spec: bytemuck::Zeroable::zeroed(),
-        shader: empty_shader(),
-        shapes: shape_records(&input, &lattice),
-        layers: layers.records(&lists),
-        paints: paints.into_records(),
+    let meta = meta(&drawing, config, &lattice, &scales, outline);
+    let shapes = shape_records(&input, &lattice);
+    let layers = layers.records(&lists);
+    let paints = paints.into_records();
+    let spec = spec_key_from_parts(&SpecParts {
+        sampler: &meta.sampler,
+        texels_per_cell: lattice.grid.texels_per_cell,
+        paints: &paints,
+        cells: &lists.words,
+        entries: &lists.entries,
+        canvas_mips: mips.is_some(),
+    });
+    let shader = shader_blob(&spec).map_err(|error| BakeError::Shader(error.to_string()))?;
+    Ok(VtexFile {
+        meta,
+        spec,
+        shader,
+        paints,
+        shapes,
+        layers,
         cells: lists.words,
         entries: lists.entries,
         tiles,
         provenance: Some(provenance(&drawing, &placed, config, source_hash, warnings)),
         images: images(drawing, mips),
-    };
-    specialise(&mut file)?;
-    Ok(file)
+    })
 }
 
 /// Distances of this bake, in steps.
@@ -410,18 +423,4 @@ fn options(config: &BakeConfig) -> Vec<(String, String)> {
     .into();
     options.sort();
     options
-}
-
-fn empty_shader() -> vtex_format::ShaderBlob {
-    vtex_format::ShaderBlob {
-        abi: vtex_format::SHADER_ABI,
-        wgsl_fragment: String::new(),
-        batch_spirv: Vec::new(),
-    }
-}
-
-/// Fills in the shader for what the file turned out to hold.
-#[expect(clippy::unnecessary_wraps, reason = "shader_blob fails")]
-fn specialise(_file: &mut VtexFile) -> Result<(), BakeError> {
-    Ok(())
 }

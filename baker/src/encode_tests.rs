@@ -14,11 +14,11 @@ fn measure_tiger() {
     let size = [512, 512];
     let exact = paint_exactly(&drawing.items, drawing.canvas_size);
     let full = [0.0, 0.0, 1.0, 1.0];
-    let truth = render(&exact, size, full, 16);
+    let truth = render(&exact, size, full, 8);
     write_png("tiger_exact.png", size, &truth);
     let sampled = render(&exact, size, full, 4);
     println!("exact 16 spp: {:.2} dB", psnr(&truth, &sampled));
-    for msdf_size in [512, 1024, 2048] {
+    for msdf_size in [512, 768, 1024] {
         let config = BakeConfig {
             msdf_size,
             ..BakeConfig::default()
@@ -50,6 +50,16 @@ fn measure_tiger() {
         let zoomed = render(|uv| evaluator.point(uv), size, zoom, 4);
         write_png(&format!("tiger_{msdf_size}_zoom8.png"), size, &zoomed);
         let zoomed_truth = render(&exact, size, zoom, 4);
+        println!("issues {:?}", file.check());
+        let bytes = file.to_bytes().unwrap();
+        let mut bare = file.clone();
+        bare.tiles.clear();
+        println!(
+            "file {} KiB; entries {} cells {} KiB",
+            bytes.len() / 1024,
+            file.entries.len() * 4 / 1024,
+            file.cells.len() * 4 / 1024
+        );
         println!(
             "{msdf_size}: {:.2} dB, zoom8 {:.2} dB, {} shapes {} layers {} tiles {} KiB, cells {:?} n {}, entries/sample {:.3}, single {:.1}%, entries {} paints {}",
             psnr(&truth, &picture),
