@@ -13,4 +13,7 @@ pub enum BakeError {
     /// A budget would be exceeded.
     #[error("limit exceeded: {0}")]
     Limit(String),
+    /// The shader of the file could not be made: a fault of this program.
+    #[error("shader of the file: {0}")]
+    Shader(String),
 }

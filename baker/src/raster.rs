@@ -3,7 +3,7 @@
 //! Painting the items rather than the SVG makes mips agree with the shapes by construction,
 //! colour replacements included.
 
-use kurbo::{Affine, BezPath, PathEl, Point, Rect, Shape as _};
+use kurbo::{Affine, BezPath, PathEl, Point, Rect};
 use rayon::prelude::*;
 use tiny_skia::{
     Color, FillRule as SkiaFillRule, Paint, Path, PathBuilder, Pixmap, PixmapMut, PixmapPaint,

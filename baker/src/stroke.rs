@@ -1,6 +1,6 @@
 //! Strokes as filled outlines: caps, joins, miter limits and dashes (SVG 2 sec. 13.5).
 
-use kurbo::{Affine, BezPath, Cap, Join, PathEl, Point, Shape as _, StrokeOpts, Vec2};
+use kurbo::{Affine, BezPath, Cap, Join, PathEl, Point, StrokeOpts, Vec2};
 
 /// Dashes of one path; more are drawn as a continuous line. Such dashes are far below a pixel at
 /// any zoom that matters, or mean harm.

@@ -1,6 +1,6 @@
 //! The walk over a usvg tree in painter's order.
 
-use kurbo::{Affine, BezPath, Cap, Join, Rect, Shape as _};
+use kurbo::{Affine, BezPath, Cap, Join, Rect};
 use usvg::{BlendMode, Group, ImageKind, Node, Paint, PaintOrder};
 use vtex_format::WarningCode;
 
