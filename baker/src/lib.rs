@@ -52,6 +52,8 @@ pub use config::{BakeConfig, Mode, Resources, Stage};
 pub use error::BakeError;
 
 #[cfg(test)]
+mod corpus_tests;
+#[cfg(test)]
 mod picture_tests;
 
 /// Bakes `svg`, the bytes of an SVG or gzipped SVG. What was approximated or left out stands in
