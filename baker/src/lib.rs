@@ -17,6 +17,8 @@
 //! and memory.
 
 mod cells;
+#[cfg(test)]
+mod cells_tests;
 mod classify;
 mod color;
 mod config;
