@@ -455,8 +455,14 @@ fn all_meshes_show_the_texture_upright_from_outside() {
         let at = |x: usize, y: usize| film.pixels[y * 64 + x];
         let (red, green, blue) = (at(24, 24), at(40, 24), at(24, 40));
         assert!(red[0] > 0.9 && red[1] < 0.1, "{name} top left: {red:?}");
-        assert!(green[1] > 0.9 && green[0] < 0.1, "{name} top right: {green:?}");
-        assert!(blue[2] > 0.9 && blue[0] < 0.1, "{name} bottom left: {blue:?}");
+        assert!(
+            green[1] > 0.9 && green[0] < 0.1,
+            "{name} top right: {green:?}"
+        );
+        assert!(
+            blue[2] > 0.9 && blue[0] < 0.1,
+            "{name} bottom left: {blue:?}"
+        );
     }
 }
 
