@@ -221,8 +221,9 @@ pub(crate) fn read_buffer(
         let _ = sender.send(result);
     });
     wait(device)?;
+    // Another thread that polls the same device may run the callback after this one's wait ends.
     let mapped = receiver
-        .try_recv()
+        .recv()
         .map_err(|_| RuntimeError::Device("read-back never finished".to_owned()))?;
     mapped.map_err(|error| RuntimeError::Device(error.to_string()))?;
     let view = staging

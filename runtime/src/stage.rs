@@ -95,7 +95,7 @@ impl Room {
                 }],
                 camera: Camera {
                     position: Vec3::new(0.25, 1.45, 4.9),
-                    target: Vec3::new(0.0, 0.50, 0.0),
+                    target: Vec3::new(0.0, 0.42, 0.0),
                     up: Vec3::Y,
                     fov_y_rad: 0.55,
                 },
@@ -195,8 +195,14 @@ impl Room {
             ..Material::default()
         };
         let center = Vec3::new(1.15, 0.5 * height, 0.1);
-        // A copy's middle faces the camera.
-        let turn = std::f32::consts::PI / copies;
+        // u = 0.5 faces the camera; of an even number of copies that is a seam, so half a copy more.
+        let to_camera = self.scene.camera.position - center;
+        let half_copy = if copies % 2.0 == 0.0 {
+            std::f32::consts::PI / copies
+        } else {
+            0.0
+        };
+        let turn = to_camera.x.atan2(to_camera.z) + half_copy;
         let upright = Affine3A::from_rotation_translation(Quat::from_rotation_y(turn), center);
         self.add(Mesh::cylinder(radius, height, 96, copies), printed, upright);
         let inside = Affine3A::from_translation(center);
@@ -212,11 +218,11 @@ impl Room {
     /// A panel lying in the foreground, seen at a grazing angle.
     fn floor_panel(&mut self) {
         let (texture, aspect) = self.take(None);
-        let [width, depth] = fitted(aspect, [1.5, 1.0]);
+        let [width, depth] = fitted(aspect, [1.8, 1.2]);
         let panel = Self::printed(texture, Surface::Diffuse);
         let place = Affine3A::from_rotation_translation(
             Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2),
-            Vec3::new(0.0, 0.004, 1.1),
+            Vec3::new(0.0, 0.004, 1.3),
         );
         self.add(Mesh::plane(width, depth), panel, place);
     }

@@ -12,9 +12,9 @@ use wgpu::{Buffer, Device, Queue};
 pub use film::{Film, ToneMap};
 pub use options::{Background, LightSampling, TraceOptions};
 
-use crate::gpu::{checked, empty_buffer, read_buffer};
+use crate::gpu::{checked, empty_buffer, read_buffer, wait};
 use crate::{RuntimeError, Scene};
-use passes::{Passes, Timer};
+use passes::{MAX_IN_FLIGHT, Passes, Timer};
 use pipeline::{Bindings, Pipelines};
 use records::{HitRecord, NONE, PassRecord, RayRecord};
 use upload::SceneBuffers;
@@ -129,15 +129,23 @@ impl Tracer {
     /// [`RuntimeError::Device`] when the device is lost.
     pub fn accumulate(&mut self, samples: u32) -> Result<(), RuntimeError> {
         let passes = Passes::new(self.size, self.samples, samples);
-        for record in passes {
+        for (count, record) in (1..).zip(passes) {
             self.dispatch(record)?;
+            if count % MAX_IN_FLIGHT == 0 {
+                self.settle()?;
+            }
         }
         self.samples = self.samples.saturating_add(samples);
-        crate::gpu::wait(&self.device)?;
-        if let Some(timer) = &mut self.timer {
-            timer.finish(&self.device, &self.queue)?;
+        self.settle()
+    }
+
+    /// Waits for what was submitted and adds up its times.
+    fn settle(&mut self) -> Result<(), RuntimeError> {
+        wait(&self.device)?;
+        match &mut self.timer {
+            Some(timer) => timer.finish(&self.device, &self.queue),
+            None => Ok(()),
         }
-        Ok(())
     }
 
     fn dispatch(&mut self, record: PassRecord) -> Result<(), RuntimeError> {
@@ -162,11 +170,7 @@ impl Tracer {
                 timer.resolve(&mut encoder);
             }
             self.queue.submit([encoder.finish()]);
-        })?;
-        if let Some(timer) = &mut self.timer {
-            timer.submitted(&self.device, &self.queue)?;
-        }
-        Ok(())
+        })
     }
 
     /// Samples a pixel so far.

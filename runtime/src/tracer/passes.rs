@@ -18,7 +18,7 @@ const PATHS_PER_PASS: u32 = 1 << 16;
 /// Samples one invocation may add in one pass, so that small films need fewer submissions.
 const MAX_SAMPLES_PER_PASS: u32 = 16;
 /// Submissions that may be under way before the host waits, which bounds queued memory.
-const MAX_IN_FLIGHT: u32 = 8;
+pub(super) const MAX_IN_FLIGHT: u32 = 8;
 /// Where a submission's two timestamps lie, in words: resolve offsets are multiples of 256 bytes.
 const STAMP_STRIDE: usize = 32;
 const STAMP_STRIDE_BYTES: u64 = 8 * STAMP_STRIDE as u64;
@@ -118,14 +118,7 @@ impl Timer {
         self.pending += 1;
     }
 
-    /// Reads the times once the buffer is full.
-    pub(super) fn submitted(&mut self, device: &Device, queue: &Queue) -> Result<(), RuntimeError> {
-        if self.pending == MAX_IN_FLIGHT {
-            self.finish(device, queue)?;
-        }
-        Ok(())
-    }
-
+    /// Adds up the times of what was resolved since; at most [`MAX_IN_FLIGHT`] passes.
     pub(super) fn finish(&mut self, device: &Device, queue: &Queue) -> Result<(), RuntimeError> {
         if self.pending == 0 {
             return Ok(());
