@@ -5,30 +5,100 @@
 //! is not vector, and the report of how it was baked. `docs/format.md` specifies every byte;
 //! this crate is the only one that knows an offset.
 //!
-//! Reading never panics and never allocates more than [`Limits`] allows, whatever the bytes.
+//! Reading never panics and never allocates more than [`Limits`] allows, whatever the bytes, and
+//! a file that [`VtexFile::parse`] accepts is safe to evaluate: every index in it names something
+//! and every list ends. [`validate`] lists all that is wrong with a file, [`directory`] what it
+//! is made of.
+//!
+//! The smallest picture there is, one red cell:
+//!
+//! ```
+//! use vtex_format::{
+//!     CellWord, Grid, Limits, Meta, PaintRecord, SHADER_ABI, SamplerSettings, ShaderBlob, SpecKey,
+//!     VtexFile,
+//! };
+//!
+//! let red = CellWord::Solid { paint: 0 };
+//! let mut file = VtexFile {
+//!     meta: Meta {
+//!         canvas_size: [100.0, 100.0],
+//!         grid: Grid {
+//!             size_cells: [1, 1],
+//!             cell_from_uv_scale: [1.0, 1.0],
+//!             cell_from_uv_offset: [0.0, 0.0],
+//!             texels_per_cell: 8,
+//!         },
+//!         distance_range_texels: 4.0,
+//!         max_zoom: 64.0,
+//!         sampler: SamplerSettings::default(),
+//!     },
+//!     spec: bytemuck::Zeroable::zeroed(),
+//!     shader: ShaderBlob {
+//!         abi: SHADER_ABI,
+//!         wgsl_fragment: String::new(),
+//!         batch_spirv: Vec::new(),
+//!     },
+//!     paints: vec![PaintRecord::solid([1.0, 0.0, 0.0, 1.0])],
+//!     shapes: Vec::new(),
+//!     layers: Vec::new(),
+//!     cells: vec![red.encode().expect("0 fits 30 bits")],
+//!     entries: Vec::new(),
+//!     tiles: Vec::new(),
+//!     images: Vec::new(),
+//!     provenance: None,
+//! };
+//! file.spec = SpecKey::for_file(&file);
+//!
+//! let bytes = file.to_bytes()?;
+//! assert_eq!(VtexFile::parse(&bytes, &Limits::default())?, file);
+//!
+//! // A truncated file says where it is broken and whose fault that is.
+//! let error = VtexFile::parse(&bytes[..100], &Limits::default()).unwrap_err();
+//! assert_eq!(error.issue().code, 1004);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod cell;
+mod check;
+mod codec;
+mod directory;
 mod error;
 mod file;
+mod frame;
+mod header;
 mod image;
+mod issue;
 mod layer;
+mod layout;
 mod limits;
 mod meta;
 mod paint;
 mod prov;
+mod read;
+mod section;
 mod shader;
 mod shape;
 mod spec;
+mod tag;
+mod write;
 
 pub use cell::{CELL_TAG_SHIFT, CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL};
+pub use directory::{Directory, directory};
 pub use error::{ReadError, WriteError};
 pub use file::VtexFile;
-pub use image::{Image, MAX_MIPS};
+pub use image::{Image, MAX_IMAGE_SIDE, MAX_MIPS};
+pub use issue::{Fault, ISSUES, Issue, IssueKind};
 pub use layer::LayerRecord;
+pub use layout::{MAX_SECTIONS, VERSION_MAJOR, VERSION_MINOR};
 pub use limits::Limits;
-pub use meta::{AddressMode, Grid, Meta, Outline, SamplerSettings};
+pub use meta::{
+    AddressMode, Grid, MAX_GRID_SIDE, MAX_TEXELS_PER_CELL, Meta, Outline, SamplerSettings,
+};
 pub use paint::{PAINT_SOLID, PaintRecord};
 pub use prov::{Provenance, ShapeReport, Warning, WarningCode};
+pub use read::validate;
+pub use section::{Codec, SectionInfo};
 pub use shader::ShaderBlob;
 pub use shape::{COVERAGE_IMAGE, COVERAGE_MSDF, FILL_EVEN_ODD, FILL_NON_ZERO, ShapeRecord};
 pub use spec::{Features, SHADER_ABI, SpecKey};
+pub use tag::Tag;

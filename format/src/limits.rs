@@ -1,21 +1,30 @@
 //! Budgets for reading files that nobody vouches for.
 
-/// Upper bounds that reading checks before it allocates.
+/// Upper bounds that reading checks before it allocates. All in bytes after decompression.
+///
+/// A section's memory is asked for in one piece once its length is known to be what grid, records
+/// and budgets allow; besides that reading holds a few bytes a table entry, and strings in memory
+/// take up to three times their stored length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Raw bytes of all sections together.
+    /// All sections together.
     pub total_raw_bytes: u64,
-    /// Raw bytes of `META`.
+    /// `META`; 90 bytes today.
     pub meta_bytes: u64,
-    /// Raw bytes of `PROV`.
+    /// `SHDR`: text and SPIR-V.
+    pub shader_bytes: u64,
+    /// `PROV`.
     pub provenance_bytes: u64,
 }
 
 impl Default for Limits {
+    /// Generous for real art (the largest of thousands of files bakes to tens of megabytes), small
+    /// beside a machine's memory.
     fn default() -> Self {
         Self {
             total_raw_bytes: 1 << 30,
             meta_bytes: 1 << 20,
+            shader_bytes: 16 << 20,
             provenance_bytes: 64 << 20,
         }
     }

@@ -2,6 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Most cells along a side of the grid: beyond it f32 places a point in a cell to less than ten
+/// bits. A larger grid is malformed.
+pub const MAX_GRID_SIDE: u32 = 16_384;
+/// Most lattice steps along a cell. A finer lattice is malformed.
+pub const MAX_TEXELS_PER_CELL: u32 = 256;
+
 /// Canvas, grid and sampler settings. Stored as bincode in `META`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Meta {
@@ -33,7 +39,7 @@ pub struct Grid {
     pub texels_per_cell: u32,
 }
 
-/// Settings of [SFG22] that a lookup applies.
+/// Settings of \[SFG22\] that a lookup applies.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SamplerSettings {
     /// `u' = a u + c v + e`, `v' = b u + d v + f`, applied before the address mode.

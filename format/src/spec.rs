@@ -2,6 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 
+use crate::check::list_lengths;
+use crate::{CellWord, Entry, EntryKind, SamplerSettings, VtexFile};
+
 /// Version of the packed words and bindings shared by shaders and loaders. A file whose shader
 /// blob carries another ABI is evaluated with the runtime's own text.
 pub const SHADER_ABI: u32 = 1;
@@ -49,4 +52,67 @@ impl Features {
     pub const TEXTURE_MATRIX: u32 = 1 << 7;
     /// All bits this version knows.
     pub const ALL: u32 = (1 << 8) - 1;
+}
+
+impl SpecKey {
+    /// The smallest key for a file's content and settings; only [`Features::MIPS`], which content
+    /// alone does not show, is taken from the file's own key. Bakers end with this.
+    pub fn for_file(file: &VtexFile) -> Self {
+        let lengths = list_lengths(&file.entries);
+        let lists = file
+            .cells
+            .iter()
+            .filter_map(|&word| match CellWord::decode(word) {
+                Some(CellWord::List { offset_words }) => lengths.get(offset_words as usize / 2),
+                _ => None,
+            });
+        let [address_u, address_v] = file.meta.sampler.address.map(|mode| mode as u32);
+        Self {
+            abi: SHADER_ABI,
+            features: Self::features_of(file) | (file.spec.features & Features::MIPS),
+            address_u,
+            address_v,
+            texels_per_cell: file.meta.grid.texels_per_cell,
+            max_entries: lists.copied().flatten().max().unwrap_or(0),
+            reserved: [0; 2],
+        }
+    }
+
+    /// The features that content and settings need.
+    pub(crate) fn features_of(file: &VtexFile) -> u32 {
+        let SamplerSettings {
+            outline,
+            mask,
+            texture_matrix,
+            ..
+        } = file.meta.sampler;
+        let is_list = |&word| matches!(CellWord::decode(word), Some(CellWord::List { .. }));
+        let mut features = 0;
+        let mut need = |needed: bool, feature| features |= if needed { feature } else { 0 };
+        need(file.cells.iter().any(is_list), Features::LISTS);
+        need(mask, Features::MASK);
+        need(outline.is_some(), Features::OUTLINE);
+        let identity = SamplerSettings::default().texture_matrix;
+        need(texture_matrix != identity, Features::TEXTURE_MATRIX);
+
+        let is_translucent = |index: u32| {
+            file.paints
+                .get(index as usize)
+                .is_some_and(|paint| !paint.is_opaque())
+        };
+        let translucent_outline = outline.is_some_and(|outline| is_translucent(outline.paint));
+        let (pairs, _) = file.entries.as_chunks();
+        for entry in pairs.iter().filter_map(|&words| Entry::decode(words)) {
+            let is_image = entry.kind == EntryKind::Image;
+            let is_msdf = entry.kind == EntryKind::Msdf;
+            need(is_image, Features::IMAGES | Features::TRANSLUCENT);
+            need(is_msdf, Features::MSDF);
+            need(is_msdf && translucent_outline, Features::TRANSLUCENT);
+            need(
+                !is_image && is_translucent(entry.index),
+                Features::TRANSLUCENT,
+            );
+        }
+        features
+    }
 }

@@ -53,9 +53,67 @@ pub mod header {
 /// Words of a paint: linear-light premultiplied RGBA, then sRGB-encoded straight RGBA, as floats.
 pub const PAINT_WORDS: u32 = 8;
 
+/// Words of a paint, by index.
+pub mod paint {
+    /// Four floats: linear light, premultiplied.
+    pub const LINEAR: u32 = 0;
+    /// Four floats: sRGB-encoded, straight alpha.
+    pub const ENCODED: u32 = 4;
+}
+
 /// Words of an image record: `rect_uv` (4 floats), width, height, level count, 0, then the first
 /// word of each of 16 levels. A texel is two words, four halves: linear light, premultiplied.
 pub const IMAGE_WORDS: u32 = 24;
+
+/// Words of an image record, by index, and of its texels.
+pub mod image {
+    /// Four floats: left, top, right, bottom in uv.
+    pub const RECT_UV: u32 = 0;
+    /// Two integers: texels of level 0.
+    pub const SIZE: u32 = 4;
+    /// Number of levels, at most [`vtex_format::MAX_MIPS`].
+    pub const LEVEL_COUNT: u32 = 6;
+    /// First word of each level.
+    pub const LEVELS: u32 = 8;
+    /// Words of a texel.
+    pub const TEXEL_WORDS: u32 = 2;
+}
+
+/// Parts of a cell's word: [`vtex_format::CellWord`].
+pub mod cell {
+    /// Bits below the tag.
+    pub const PAYLOAD_MASK: u32 = (1 << TAG_SHIFT) - 1;
+    /// Position of the tag.
+    pub const TAG_SHIFT: u32 = vtex_format::CELL_TAG_SHIFT;
+    /// Tag of an empty cell.
+    pub const EMPTY: u32 = 0;
+    /// Tag of a cell of one colour.
+    pub const SOLID: u32 = 1;
+    /// Tag of a cell with a list.
+    pub const LIST: u32 = 2;
+}
+
+/// Parts of an entry's first word: [`vtex_format::Entry`].
+pub mod entry {
+    use vtex_format::EntryKind;
+
+    /// Words of an entry.
+    pub const WORDS: u32 = 2;
+    /// Position of the kind.
+    pub const KIND_SHIFT: u32 = 28;
+    /// Set in the last, backmost entry.
+    pub const LAST_BIT: u32 = 1 << 27;
+    /// Set where nothing behind a coverage of 1 shows.
+    pub const OPAQUE_BIT: u32 = 1 << 26;
+    /// Bits of the paint or image index.
+    pub const INDEX_MASK: u32 = OPAQUE_BIT - 1;
+    /// [`EntryKind::Full`].
+    pub const FULL: u32 = EntryKind::Full as u32;
+    /// [`EntryKind::Msdf`].
+    pub const MSDF: u32 = EntryKind::Msdf as u32;
+    /// [`EntryKind::Image`].
+    pub const IMAGE: u32 = EntryKind::Image as u32;
+}
 
 /// How a lookup turns distances into coverage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

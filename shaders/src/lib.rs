@@ -2,6 +2,40 @@
 //! specialised text from a [`vtex_format::SpecKey`].
 //!
 //! Both sides read the same packed words ([`pack`]), so a lookup on the CPU and on the GPU walks
-//! the same numbers.
+//! the same numbers. `docs/format.md` section 3 says what a lookup returns.
+//!
+//! ```
+//! use vtex_shaders::{BindingSlot, fragment};
+//! # use vtex_format::{Features, SHADER_ABI, SpecKey};
+//! # let key = SpecKey { abi: SHADER_ABI, features: Features::LISTS | Features::MSDF, address_u: 0,
+//! #     address_v: 0, texels_per_cell: 8, max_entries: 4, reserved: [0; 2] };
+//! let text = fragment(&key, BindingSlot { group: 2, binding: 0 });
+//! assert!(text.contains("fn vtex_sample(uv: vec2f, footprint: vec4f) -> vec4f"));
+//! assert!(!text.contains("vtex_image_"), "no code for what the file does not hold");
+//! ```
 
+pub mod cpu;
 pub mod layout;
+mod link;
+mod pack;
+#[cfg(feature = "precompile")]
+mod precompile;
+mod sources;
+mod spec;
+mod specialize;
+
+pub use layout::{BatchQuery, FilterMode};
+pub use link::{LinkContext, LinkError, link};
+pub use pack::{PackOptions, pack};
+#[cfg(feature = "precompile")]
+pub use precompile::{PrecompileError, shader_blob, spirv};
+pub use spec::{SpecParts, spec_key, spec_key_from_parts, spec_key_with};
+pub use specialize::{
+    BATCH_WORKGROUP, BindingSlot, batch_dispatch, batch_kernel, fragment, scene_context,
+    scene_evaluator,
+};
+
+/// Hash of a shader's text, by which a loader tells whether a file's text is its own.
+pub fn hash(text: &str) -> [u8; 32] {
+    *blake3::hash(text.as_bytes()).as_bytes()
+}

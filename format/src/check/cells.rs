@@ -1,0 +1,155 @@
+//! Cells and the lists of entries they name.
+
+use std::cell::OnceCell;
+
+use crate::cell::LAST_BIT;
+use crate::issue::{self, Issues};
+use crate::{CellWord, Entry, EntryKind, Image, MAX_ENTRIES_PER_CELL, Tag, VtexFile};
+
+/// What entries may name.
+pub(super) struct Tables {
+    tile_count: u64,
+    /// Whether an image is opaque, found when first asked: it reads every texel.
+    opaque_images: Vec<OnceCell<bool>>,
+}
+
+impl Tables {
+    pub(super) fn of(file: &VtexFile) -> Self {
+        let tiles = file.layers.iter().map(|layer| u64::from(layer.tile_count));
+        Self {
+            tile_count: tiles.sum(),
+            opaque_images: vec![OnceCell::new(); file.images.len()],
+        }
+    }
+
+    fn is_opaque_image(&self, images: &[Image], index: usize) -> bool {
+        let known = self.opaque_images.get(index).zip(images.get(index));
+        known.is_some_and(|(known, image)| *known.get_or_init(|| image.is_opaque()))
+    }
+}
+
+/// Every entry has a meaning and names what exists, whether or not a cell lists it.
+pub(super) fn entries(file: &VtexFile, tables: &Tables, issues: &mut Issues) {
+    let (pairs, rest) = file.entries.as_chunks::<2>();
+    if !rest.is_empty() {
+        let message = format_args!("{} words", file.entries.len());
+        issues.add(
+            issue::ENTRY_COUNT,
+            Tag::ENTR,
+            8 * pairs.len() as u64,
+            message,
+        );
+    }
+    for (index, &words) in pairs.iter().enumerate() {
+        let offset = 8 * index as u64;
+        let Some(entry) = Entry::decode(words) else {
+            let [head, data] = words;
+            let message = format_args!("words {head:#010x} {data:#010x}");
+            issues.add(issue::ENTRY_WORD, Tag::ENTR, offset, message);
+            continue;
+        };
+        let (kind, count) = match entry.kind {
+            EntryKind::Image => (issue::ENTRY_IMAGE, file.images.len()),
+            EntryKind::Full | EntryKind::Msdf => (issue::ENTRY_PAINT, file.paints.len()),
+        };
+        let place = entry.index as usize;
+        if place >= count {
+            let message = format_args!("{place} of {count}");
+            issues.add(kind, Tag::ENTR, offset, message);
+            continue;
+        }
+        if entry.kind == EntryKind::Msdf && u64::from(entry.data) >= tables.tile_count {
+            let message = format_args!("tile {} of {}", entry.data, tables.tile_count);
+            issues.add(issue::ENTRY_TILE, Tag::ENTR, offset + 4, message);
+        }
+        let opaque = match entry.kind {
+            EntryKind::Image => tables.is_opaque_image(&file.images, place),
+            EntryKind::Full | EntryKind::Msdf => file.paints[place].is_opaque(),
+        };
+        if entry.opaque && !opaque {
+            let message = format_args!("{:?} {place}", entry.kind);
+            issues.add(issue::ENTRY_OPAQUE, Tag::ENTR, offset, message);
+        }
+    }
+}
+
+/// Every cell names what exists and every list ends; returns the longest list's length.
+pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> u32 {
+    let [columns, rows] = file.meta.grid.size_cells.map(u64::from);
+    if file.cells.len() as u64 != columns * rows {
+        let message = format_args!("{} words for {columns} x {rows} cells", file.cells.len());
+        issues.add(issue::CELL_COUNT, Tag::CELL, 0, message);
+    }
+    let lengths = list_lengths(&file.entries);
+    let mut longest = 0;
+    for (index, &word) in file.cells.iter().enumerate() {
+        let mut note = |kind, message: std::fmt::Arguments<'_>| {
+            issues.add(kind, Tag::CELL, 4 * index as u64, message);
+        };
+        match CellWord::decode(word) {
+            None => note(issue::CELL_WORD, format_args!("word {word:#010x}")),
+            Some(CellWord::Empty) => {}
+            Some(CellWord::Solid { paint }) if (paint as usize) < file.paints.len() => {}
+            Some(CellWord::Solid { paint }) => {
+                note(
+                    issue::CELL_PAINT,
+                    format_args!("{paint} of {}", file.paints.len()),
+                );
+            }
+            Some(CellWord::List { offset_words }) => {
+                let length = lengths.get(offset_words as usize / 2);
+                match length.filter(|_| offset_words % 2 == 0) {
+                    None => note(issue::LIST_OFFSET, format_args!("word {offset_words}")),
+                    Some(Some(length)) => longest = longest.max(*length),
+                    Some(None) => note(
+                        issue::LIST_END,
+                        format_args!("no last entry within {MAX_ENTRIES_PER_CELL}"),
+                    ),
+                }
+            }
+        }
+    }
+    longest
+}
+
+/// For each entry how many there are from it to the next last one; `None` when that is more than
+/// [`MAX_ENTRIES_PER_CELL`] or never comes. One backward pass, however lists overlap.
+pub(crate) fn list_lengths(entries: &[u32]) -> Vec<Option<u32>> {
+    let (pairs, _) = entries.as_chunks::<2>();
+    let mut length = None;
+    let backward = pairs.iter().rev().map(|[head, _]| {
+        length = if head & LAST_BIT != 0 {
+            Some(1)
+        } else {
+            length
+                .map(|behind| behind + 1)
+                .filter(|&all| all <= MAX_ENTRIES_PER_CELL)
+        };
+        length
+    });
+    let mut lengths: Vec<_> = backward.collect();
+    lengths.reverse();
+    lengths
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_count_to_the_next_last_entry() {
+        let entries = [0, 0, LAST_BIT, 0, 0, 0, 0, 0, LAST_BIT, 0, 0, 0];
+        let expected = [Some(2), Some(1), Some(3), Some(2), Some(1), None];
+        assert_eq!(list_lengths(&entries), expected);
+    }
+
+    #[test]
+    fn a_list_one_too_long_does_not_end() {
+        let most = MAX_ENTRIES_PER_CELL as usize;
+        let mut entries = vec![0; 2 * (most + 1)];
+        entries[2 * most] = LAST_BIT;
+        let lengths = list_lengths(&entries);
+        assert_eq!(lengths[0], None);
+        assert_eq!(lengths[1], Some(MAX_ENTRIES_PER_CELL));
+    }
+}

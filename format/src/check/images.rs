@@ -1,0 +1,94 @@
+//! Tiles and raster images.
+
+use crate::image::{ImageRecord, MAX_IMAGE_SIDE};
+use crate::issue::{self, Issues};
+use crate::layout::tile_bytes;
+use crate::{Features, Image, Tag, VtexFile};
+
+/// The tiles are as many bytes as the layers say, and every texel's alpha is 255.
+pub(super) fn tiles(file: &VtexFile, issues: &mut Issues) {
+    let count: u64 = file
+        .layers
+        .iter()
+        .map(|layer| u64::from(layer.tile_count))
+        .sum();
+    let expected = tile_bytes(file.meta.grid.texels_per_cell).saturating_mul(count);
+    if file.tiles.len() as u64 != expected {
+        let message = format_args!(
+            "{} bytes for {count} tiles, not {expected}",
+            file.tiles.len()
+        );
+        issues.add(issue::TILE_BYTES, Tag::TILE, 0, message);
+    }
+    let (texels, _) = file.tiles.as_chunks::<4>();
+    if let Some(index) = texels.iter().position(|texel| texel[3] != u8::MAX) {
+        let message = format_args!("texel {index} has {}", texels[index][3]);
+        issues.add(issue::TILE_ALPHA, Tag::TILE, 4 * index as u64 + 3, message);
+    }
+}
+
+/// Whether the records are sound, so that their levels' sizes can be computed.
+pub(crate) fn image_records(records: &[ImageRecord], issues: &mut Issues) -> bool {
+    let mut sound = true;
+    for (index, record) in records.iter().enumerate() {
+        let mut require = |holds: bool, kind, field: u64, found: &dyn std::fmt::Debug| {
+            if !holds {
+                sound = false;
+                let offset = (index * size_of::<ImageRecord>()) as u64 + field;
+                issues.add(
+                    kind,
+                    Tag::IMAG,
+                    offset,
+                    format_args!("image {index}: {found:?}"),
+                );
+            }
+        };
+        let [left, top, right, bottom] = record.rect_uv;
+        let finite = record.rect_uv.iter().all(|edge| edge.is_finite());
+        let area = finite && left < right && top < bottom;
+        require(area, issue::IMAGE_RECT, 0, &record.rect_uv);
+        let side = |texels: &u32| (1..=MAX_IMAGE_SIDE).contains(texels);
+        require(
+            record.size.iter().all(side),
+            issue::IMAGE_SIZE,
+            16,
+            &record.size,
+        );
+        let full = record.level_count == Image::level_count(record.size);
+        require(full, issue::IMAGE_LEVELS, 24, &record.level_count);
+        require(
+            record.reserved == 0,
+            issue::IMAGE_RESERVED,
+            28,
+            &record.reserved,
+        );
+    }
+    sound
+}
+
+/// Every image has all its levels, and image 0 is the canvas where the key says so.
+pub(super) fn images(file: &VtexFile, issues: &mut Issues) {
+    let records: Vec<_> = file.images.iter().map(ImageRecord::of).collect();
+    image_records(&records, issues);
+    for (index, (image, record)) in file.images.iter().zip(&records).enumerate() {
+        let offset = (index * size_of::<ImageRecord>()) as u64;
+        if image.mips.len() != record.level_count as usize {
+            let message = format_args!("image {index} has {} levels", image.mips.len());
+            issues.add(issue::IMAGE_LEVELS, Tag::IMAG, offset + 24, message);
+        }
+        for (level, texels) in (0..record.level_count).zip(&image.mips) {
+            let expected = Image::level_bytes(image.size, level);
+            if texels.len() as u64 != expected {
+                let length = texels.len();
+                let message =
+                    format_args!("image {index} level {level}: {length} bytes, not {expected}");
+                issues.add(issue::MIP_BYTES, Tag::MIPS, 0, message);
+            }
+        }
+    }
+    let canvas = file.images.first().map(|image| image.rect_uv);
+    if file.spec.features & Features::MIPS != 0 && canvas != Some([0.0, 0.0, 1.0, 1.0]) {
+        let message = format_args!("its rectangle is {canvas:?}");
+        issues.add(issue::CANVAS_IMAGE, Tag::IMAG, 0, message);
+    }
+}

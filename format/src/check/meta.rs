@@ -1,0 +1,120 @@
+//! Settings: finite, in range, and a grid that covers the canvas.
+
+use crate::issue::{self, IssueKind, Issues};
+use crate::layout::meta as at;
+use crate::meta::{MAX_GRID_SIDE, MAX_TEXELS_PER_CELL};
+use crate::{Grid, Meta, Tag, VtexFile};
+
+/// How far a cell's sides may differ relatively: f32 rounding of canvas and scale.
+const ASPECT_TOLERANCE: f64 = 1e-4;
+
+/// Whether the settings are sound; everything but the outline's paint.
+pub(crate) fn meta(meta: &Meta, issues: &mut Issues) -> bool {
+    let mut sound = true;
+    let mut require = |holds: bool, kind: IssueKind, offset, found: &dyn std::fmt::Debug| {
+        if !holds {
+            sound = false;
+            issues.add(
+                kind,
+                Tag::META,
+                offset,
+                format_args!("{}: {found:?}", kind.summary),
+            );
+        }
+    };
+    let canvas = meta.canvas_size;
+    require(
+        canvas.iter().all(|&v| is_positive(v)),
+        issue::CANVAS_SIZE,
+        at::CANVAS_SIZE,
+        &canvas,
+    );
+    let grid = &meta.grid;
+    let side = |cells: &u32| (1..=MAX_GRID_SIDE).contains(cells);
+    let size = grid.size_cells;
+    require(
+        size.iter().all(side),
+        issue::GRID_SIZE,
+        at::GRID_SIZE,
+        &size,
+    );
+    let scale = grid.cell_from_uv_scale;
+    require(
+        scale.iter().all(|&v| is_positive(v)),
+        issue::GRID_TRANSFORM,
+        at::GRID_SCALE,
+        &scale,
+    );
+    let offset = grid.cell_from_uv_offset;
+    let unit = offset.iter().all(|v| (0.0..1.0).contains(v));
+    require(unit, issue::GRID_TRANSFORM, at::GRID_OFFSET, &offset);
+    require(covers_canvas(grid), issue::GRID_COVER, at::GRID_SIZE, &size);
+    require(
+        is_square(grid, canvas),
+        issue::GRID_ASPECT,
+        at::GRID_SCALE,
+        &scale,
+    );
+    let texels = grid.texels_per_cell;
+    let few = (1..=MAX_TEXELS_PER_CELL).contains(&texels);
+    require(few, issue::TEXELS_PER_CELL, at::TEXELS_PER_CELL, &texels);
+    let range = meta.distance_range_texels;
+    require(
+        is_positive(range),
+        issue::DISTANCE_RANGE,
+        at::DISTANCE_RANGE,
+        &range,
+    );
+    require(
+        is_positive(meta.max_zoom),
+        issue::MAX_ZOOM,
+        at::MAX_ZOOM,
+        &meta.max_zoom,
+    );
+    let sampler = &meta.sampler;
+    let matrix = sampler.texture_matrix;
+    let finite = matrix.iter().all(|v| v.is_finite());
+    require(finite, issue::TEXTURE_MATRIX, at::TEXTURE_MATRIX, &matrix);
+    let smoothing = sampler.smoothing;
+    let smooth = smoothing > 0.0 && smoothing <= 0.5;
+    require(smooth, issue::SMOOTHING, at::SMOOTHING, &smoothing);
+    if let Some(outline) = sampler.outline {
+        let width = outline.width_texels;
+        let within = width > 0.0 && width < range / 2.0;
+        require(within, issue::OUTLINE_WIDTH, at::OUTLINE_WIDTH, &width);
+    }
+    sound
+}
+
+/// The outline's paint exists.
+pub(super) fn outline_paint(file: &VtexFile, issues: &mut Issues) {
+    if let Some(outline) = file.meta.sampler.outline
+        && outline.paint as usize >= file.paints.len()
+    {
+        let message = format_args!("paint {} of {}", outline.paint, file.paints.len());
+        issues.add(issue::OUTLINE_PAINT, Tag::META, at::OUTLINE_PAINT, message);
+    }
+}
+
+fn is_positive(value: f32) -> bool {
+    value.is_finite() && value > 0.0
+}
+
+/// uv 0 lies in the first cell because offsets are in \[0, 1); uv 1 must lie in or at the last,
+/// as evaluators compute it, in f32.
+fn covers_canvas(grid: &Grid) -> bool {
+    let axis = |i: usize| {
+        let last = f64::from(grid.cell_from_uv_scale[i] + grid.cell_from_uv_offset[i]);
+        last <= f64::from(grid.size_cells[i])
+    };
+    axis(0) && axis(1)
+}
+
+/// Cells a user unit are the same along both axes. Not said again where canvas or scale are
+/// themselves out of range.
+fn is_square(grid: &Grid, canvas: [f32; 2]) -> bool {
+    let density = |i: usize| f64::from(grid.cell_from_uv_scale[i]) / f64::from(canvas[i]);
+    let (x, y) = (density(0), density(1));
+    let comparable = x.is_finite() && y.is_finite() && x > 0.0 && y > 0.0;
+    !comparable || (x / y - 1.0).abs() <= ASPECT_TOLERANCE
+}

@@ -1,0 +1,41 @@
+//! The rules a value must keep to be written, and a file's content to be read: one module a
+//! subject.
+
+mod cells;
+mod images;
+mod meta;
+mod prov;
+mod shapes;
+mod spec;
+
+use crate::VtexFile;
+use crate::issue::Issues;
+
+pub(crate) use cells::list_lengths;
+pub(crate) use images::image_records;
+pub(crate) use meta::meta;
+
+/// Checks a whole value.
+pub(crate) fn file(file: &VtexFile, issues: &mut Issues) {
+    // Without sound settings the lengths of cells and tiles mean nothing.
+    if meta(&file.meta, issues) {
+        content(file, issues);
+    }
+}
+
+/// Checks a value whose settings are known to be sound.
+pub(crate) fn content(file: &VtexFile, issues: &mut Issues) {
+    shapes::paints(&file.paints, issues);
+    meta::outline_paint(file, issues);
+    shapes::shapes(file, issues);
+    shapes::layers(file, issues);
+    images::images(file, issues);
+    images::tiles(file, issues);
+    let tables = cells::Tables::of(file);
+    cells::entries(file, &tables, issues);
+    let longest = cells::cells(file, issues);
+    spec::spec(file, longest, issues);
+    if let Some(provenance) = &file.provenance {
+        prov::provenance(provenance, file.shapes.len(), issues);
+    }
+}

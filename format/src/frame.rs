@@ -1,0 +1,103 @@
+//! Stored bytes to raw bytes and back: one zstd frame a section.
+
+use std::borrow::Cow;
+
+use bytemuck::Pod;
+use zstd::zstd_safe;
+
+use crate::issue::{self, IssueKind};
+use crate::{Codec, SectionInfo};
+
+/// Speed 19 of 22: texels and cells are written once and read often. The higher levels want more
+/// memory for a per cent.
+const LEVEL: i32 = 19;
+
+/// Raw bytes as stored: a zstd frame, or themselves when that is no shorter.
+///
+/// # Errors
+/// When zstd has no memory.
+pub(crate) fn compress(raw: &[u8]) -> std::io::Result<(Codec, Vec<u8>)> {
+    let frame = zstd::bulk::compress(raw, LEVEL)?;
+    Ok(if frame.len() < raw.len() {
+        (Codec::Zstd, frame)
+    } else {
+        (Codec::Raw, raw.to_vec())
+    })
+}
+
+/// Why a section's bytes could not be had.
+pub(crate) type Refusal = (IssueKind, String);
+
+/// Unpacks a section into memory of just its raw length.
+pub(crate) fn decompress(
+    section: &SectionInfo,
+    stored: &[u8],
+    raw: &mut [u8],
+) -> Result<(), Refusal> {
+    match section.codec {
+        Codec::Raw => raw.copy_from_slice(stored),
+        Codec::Zstd => unpack(stored, raw)?,
+        Codec::Unknown(number) => return Err((issue::CODEC, format!("codec {number}"))),
+    }
+    if *blake3::hash(raw).as_bytes() != section.hash {
+        let message = "the raw bytes are not those that were written";
+        return Err((issue::HASH, message.to_owned()));
+    }
+    Ok(())
+}
+
+fn unpack(stored: &[u8], raw: &mut [u8]) -> Result<(), Refusal> {
+    let refuse = |message: String| Err((issue::FRAME, message));
+    // One frame and nothing else: zstd itself would also take several, and skip what it pleases.
+    match zstd_safe::find_frame_compressed_size(stored) {
+        Ok(length) if length == stored.len() => {}
+        Ok(length) => return refuse(format!("the frame ends after {length} bytes")),
+        Err(_) => return refuse("not a whole frame".into()),
+    }
+    match zstd_safe::get_frame_content_size(stored) {
+        Ok(Some(length)) if length == raw.len() as u64 => {}
+        _ => {
+            return refuse(format!(
+                "the frame does not say that it holds {} bytes",
+                raw.len()
+            ));
+        }
+    }
+    match zstd::bulk::decompress_to_buffer(stored, raw) {
+        Ok(length) if length == raw.len() => Ok(()),
+        Ok(length) => refuse(format!("{length} bytes instead of {}", raw.len())),
+        Err(error) => refuse(error.to_string()),
+    }
+}
+
+/// Zeroed elements of `bytes` in all, in one piece. The caller has checked `bytes` against its
+/// budgets; what the machine does not have is refused where `vec!` would abort.
+pub(crate) fn allocate<T: Pod>(bytes: u64) -> Result<Vec<T>, Refusal> {
+    let size = size_of::<T>() as u64;
+    if !bytes.is_multiple_of(size) {
+        let message = format!("{bytes} bytes are no whole number of {size}-byte records");
+        return Err((issue::RECORD_LENGTH, message));
+    }
+    let refuse = || (issue::MEMORY, format!("{bytes} bytes"));
+    let count = usize::try_from(bytes / size).map_err(|_| refuse())?;
+    let mut elements = Vec::new();
+    elements.try_reserve_exact(count).map_err(|_| refuse())?;
+    elements.resize(count, T::zeroed());
+    Ok(elements)
+}
+
+/// Records of 32-bit words as this machine has them; nothing to do on a little-endian one.
+pub(crate) fn words_from_little_endian<T: Pod>(records: &mut [T]) {
+    for word in bytemuck::cast_slice_mut::<T, u32>(records) {
+        *word = u32::from_le(*word);
+    }
+}
+
+/// Records of 32-bit words as little-endian bytes.
+pub(crate) fn words_to_little_endian<T: Pod>(records: &[T]) -> Cow<'_, [u8]> {
+    if cfg!(target_endian = "little") {
+        return Cow::Borrowed(bytemuck::cast_slice(records));
+    }
+    let words = bytemuck::cast_slice::<T, u32>(records);
+    words.iter().flat_map(|word| word.to_le_bytes()).collect()
+}

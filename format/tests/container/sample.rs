@@ -1,0 +1,287 @@
+//! Valid files made in code: one by hand that has every section, and arbitrary ones.
+
+use arbtest::arbitrary::{Result, Unstructured};
+use bytemuck::Zeroable;
+use vtex_format::{
+    AddressMode, COVERAGE_IMAGE, COVERAGE_MSDF, CellWord, Entry, EntryKind, Features, Grid, Image,
+    LayerRecord, Meta, Outline, PaintRecord, Provenance, SHADER_ABI, SamplerSettings, ShaderBlob,
+    ShapeRecord, ShapeReport, SpecKey, VtexFile, Warning, WarningCode,
+};
+
+/// A 2 x 2 grid with every kind of cell and entry, two layers, two images and every section.
+pub(crate) fn small() -> VtexFile {
+    let entry = |kind, last, index, data| Entry {
+        kind,
+        last,
+        opaque: false,
+        index,
+        data,
+    };
+    let full = Entry {
+        opaque: true,
+        ..entry(EntryKind::Full, true, 0, 0)
+    };
+    let entries = [
+        entry(EntryKind::Msdf, false, 1, 0),
+        entry(EntryKind::Image, false, 1, 0),
+        full,
+        entry(EntryKind::Msdf, true, 1, 2),
+    ];
+    let cells = [
+        CellWord::Empty,
+        CellWord::Solid { paint: 1 },
+        CellWord::List { offset_words: 0 },
+        CellWord::List { offset_words: 6 },
+    ];
+    let file = VtexFile {
+        meta: meta([2, 2], 2),
+        spec: SpecKey {
+            features: Features::MIPS,
+            ..SpecKey::zeroed()
+        },
+        shader: ShaderBlob {
+            abi: SHADER_ABI,
+            wgsl_fragment: "fn vtex_sample() {}".to_owned(),
+            batch_spirv: vec![0x0723_0203, 7],
+        },
+        paints: vec![
+            PaintRecord::solid([1.0, 0.5, 0.0, 1.0]),
+            PaintRecord::solid([0.0, 0.5, 1.0, 0.25]),
+        ],
+        shapes: vec![
+            shape(COVERAGE_MSDF, 0, 1),
+            shape(COVERAGE_MSDF, 1, 1),
+            shape(COVERAGE_IMAGE, 1, 0),
+        ],
+        layers: vec![layer(0, 2, 1), layer(2, 1, 1)],
+        cells: cells.map(|cell| cell.encode().unwrap()).to_vec(),
+        entries: entries
+            .iter()
+            .flat_map(|entry| entry.encode().unwrap())
+            .collect(),
+        tiles: tiles(3 * 9),
+        images: vec![
+            image([0.0, 0.0, 1.0, 1.0], [5, 3]),
+            image([0.25, 0.0, 0.5, 1.0], [1, 2]),
+        ],
+        provenance: Some(provenance(3)),
+    };
+    with_key(file)
+}
+
+/// The file with the key its content asks for.
+pub(crate) fn with_key(mut file: VtexFile) -> VtexFile {
+    file.spec = SpecKey::for_file(&file);
+    file
+}
+
+fn meta(size_cells: [u32; 2], texels_per_cell: u32) -> Meta {
+    let [columns, rows] = size_cells.map(|cells| cells as f32);
+    Meta {
+        canvas_size: [32.0 * (columns - 0.5), 32.0 * (rows - 0.5)],
+        grid: Grid {
+            size_cells,
+            cell_from_uv_scale: [columns - 0.5, rows - 0.5],
+            cell_from_uv_offset: [0.25, 0.5],
+            texels_per_cell,
+        },
+        distance_range_texels: 4.0,
+        max_zoom: 64.0,
+        sampler: SamplerSettings {
+            address: [AddressMode::Repeat, AddressMode::Border],
+            outline: Some(Outline {
+                width_texels: 1.5,
+                paint: 0,
+            }),
+            ..SamplerSettings::default()
+        },
+    }
+}
+
+fn shape(coverage: u32, layer_or_image: u32, paint: u32) -> ShapeRecord {
+    ShapeRecord {
+        coverage,
+        layer_or_image,
+        paint,
+        bounds_uv: [-0.5, 0.0, 0.5, 1.5],
+        segment_count: 4,
+        ..ShapeRecord::zeroed()
+    }
+}
+
+fn layer(tile_first: u32, tile_count: u32, shape_count: u32) -> LayerRecord {
+    LayerRecord {
+        tile_first,
+        tile_count,
+        shape_count,
+        reserved: 0,
+    }
+}
+
+/// Texels of any colour whose alpha is 255.
+fn tiles(texel_count: usize) -> Vec<u8> {
+    let texels = (0..texel_count).map(|i| [i as u8, (i * 7) as u8, (i / 3) as u8, 255]);
+    texels.flatten().collect()
+}
+
+fn image(rect_uv: [f32; 4], size: [u32; 2]) -> Image {
+    let level = |level| {
+        let [width, height] = Image::level_size(size, level);
+        (0..4 * width * height)
+            .map(|i| (i * 13 + level) as u8)
+            .collect()
+    };
+    Image {
+        rect_uv,
+        size,
+        mips: (0..Image::level_count(size)).map(level).collect(),
+    }
+}
+
+fn provenance(shape_count: usize) -> Provenance {
+    let report = ShapeReport {
+        element: "path1".to_owned(),
+        source: "fill".to_owned(),
+        note: String::new(),
+    };
+    Provenance {
+        source_hash: [7; 32],
+        tool: "sample 1".to_owned(),
+        options: vec![
+            ("mode".to_owned(), "auto".to_owned()),
+            ("size".to_owned(), "5".to_owned()),
+        ],
+        shapes: vec![report; shape_count],
+        warnings: vec![Warning {
+            code: WarningCode::RasterPatch,
+            feature: "filter".to_owned(),
+            element: "g2".to_owned(),
+            message: "drawn as a raster image".to_owned(),
+        }],
+    }
+}
+
+/// An arbitrary valid file.
+pub(crate) fn arbitrary(u: &mut Unstructured<'_>) -> Result<VtexFile> {
+    let size = [u.int_in_range(1..=9)?, u.int_in_range(1..=9)?];
+    let mut meta = meta(size, u.int_in_range(1..=9)?);
+    meta.sampler.mask = u.arbitrary()?;
+    if u.arbitrary()? {
+        meta.sampler.outline = None;
+    }
+    if u.arbitrary()? {
+        meta.sampler.texture_matrix[4] = 0.5;
+    }
+    let paint_count = u.int_in_range(1..=5)?;
+    let paints = (0..paint_count)
+        .map(|_| paint(u))
+        .collect::<Result<Vec<_>>>()?;
+    let image_count = u.int_in_range(0..=3)?;
+    let images = (0..image_count)
+        .map(|_| any_image(u))
+        .collect::<Result<Vec<_>>>()?;
+    let layers = any_layers(u)?;
+    let tile_count: u32 = layers.iter().map(|layer| layer.tile_count).sum();
+    let entries = any_entries(u, &paints, images.len() as u32, tile_count)?;
+    let entry_count = entries.len() as u32 / 2;
+    let cells = (0..size[0] * size[1]).map(|_| cell(u, &paints, entry_count));
+    let cells = cells.collect::<Result<Vec<_>>>()?;
+    let texels_per_tile = (meta.grid.texels_per_cell + 1).pow(2);
+    let mips = !images.is_empty() && images[0].rect_uv == [0.0, 0.0, 1.0, 1.0] && u.arbitrary()?;
+    Ok(with_key(VtexFile {
+        spec: SpecKey {
+            features: if mips { Features::MIPS } else { 0 },
+            ..SpecKey::zeroed()
+        },
+        shader: ShaderBlob {
+            abi: u.arbitrary()?,
+            wgsl_fragment: u.arbitrary()?,
+            batch_spirv: u.arbitrary()?,
+        },
+        shapes: any_shapes(&layers),
+        tiles: tiles((tile_count * texels_per_tile) as usize),
+        provenance: None,
+        meta,
+        paints,
+        cells,
+        layers,
+        entries,
+        images,
+    }))
+}
+
+fn paint(u: &mut Unstructured<'_>) -> Result<PaintRecord> {
+    let channel = |byte: u8| f32::from(byte) / 255.0;
+    let [r, g, b] = u.arbitrary::<[u8; 3]>()?.map(channel);
+    let alpha = if u.arbitrary()? { 1.0 } else { 0.5 };
+    Ok(PaintRecord::solid([r, g, b, alpha]))
+}
+
+fn any_image(u: &mut Unstructured<'_>) -> Result<Image> {
+    let rect = *u.choose(&[[0.0, 0.0, 1.0, 1.0], [-1.0, 0.5, 0.0, 0.75]])?;
+    Ok(image(
+        rect,
+        [u.int_in_range(1..=40)?, u.int_in_range(1..=40)?],
+    ))
+}
+
+fn any_layers(u: &mut Unstructured<'_>) -> Result<Vec<LayerRecord>> {
+    let mut tile_first = 0;
+    let mut layers = Vec::new();
+    for _ in 0..u.int_in_range(0..=4)? {
+        let tile_count = u.int_in_range(0..=3)?;
+        layers.push(layer(tile_first, tile_count, u.int_in_range(0..=3)?));
+        tile_first += tile_count;
+    }
+    Ok(layers)
+}
+
+fn any_shapes(layers: &[LayerRecord]) -> Vec<ShapeRecord> {
+    let members = (0..).zip(layers).flat_map(|(index, layer)| {
+        (0..layer.shape_count).map(move |_| shape(COVERAGE_MSDF, index, 0))
+    });
+    members.collect()
+}
+
+fn any_entries(
+    u: &mut Unstructured<'_>,
+    paints: &[PaintRecord],
+    image_count: u32,
+    tile_count: u32,
+) -> Result<Vec<u32>> {
+    let count = u.int_in_range(0..=12)?;
+    let mut words = Vec::new();
+    for place in 1..=count {
+        let paint = u.choose_index(paints.len())?;
+        let mut entry = Entry {
+            kind: EntryKind::Full,
+            last: place == count || u.arbitrary()?,
+            opaque: paints[paint].is_opaque() && u.arbitrary()?,
+            index: paint as u32,
+            data: 0,
+        };
+        if tile_count > 0 && u.arbitrary()? {
+            entry.kind = EntryKind::Msdf;
+            entry.data = u.int_in_range(0..=tile_count - 1)?;
+        } else if image_count > 0 && u.arbitrary()? {
+            entry.kind = EntryKind::Image;
+            entry.opaque = false;
+            entry.index = u.int_in_range(0..=image_count - 1)?;
+        }
+        words.extend(entry.encode().unwrap());
+    }
+    Ok(words)
+}
+
+fn cell(u: &mut Unstructured<'_>, paints: &[PaintRecord], entry_count: u32) -> Result<u32> {
+    let word = match u.int_in_range(0..=2)? {
+        1 => CellWord::Solid {
+            paint: u.choose_index(paints.len())? as u32,
+        },
+        2 if entry_count > 0 => CellWord::List {
+            offset_words: 2 * u.int_in_range(0..=entry_count - 1)?,
+        },
+        _ => CellWord::Empty,
+    };
+    Ok(word.encode().unwrap())
+}

@@ -1,0 +1,94 @@
+//! Twin of `vtex/image.wgsl`: trilinear lookups by hand. Texel centres lie at +0.5.
+
+use super::math::{clamp, to_f32, to_u32};
+use super::{Lookup, Sampler, Value};
+use crate::layout::{IMAGE_WORDS, image};
+
+/// `index` of a texel left, right, above or below the edge comes back in.
+fn neighbour(index: f32, count: f32, wraps: bool) -> f32 {
+    if wraps {
+        index - count * (index / count).floor()
+    } else {
+        clamp(index, 0.0, count - 1.0)
+    }
+}
+
+fn weighted<V: Value>(a: V, b: V, t: f32) -> V {
+    a.scaled(1.0 - t).plus(b.scaled(t))
+}
+
+/// `t` in \[0, 1\] over the image.
+fn bilinear<V: Value>(
+    sampler: &Sampler<'_>,
+    record: u32,
+    level: u32,
+    t: [f32; 2],
+    wraps: [bool; 2],
+) -> V {
+    let full: [u32; 2] = sampler.words(record.wrapping_add(image::SIZE));
+    let size = full.map(|side| (side >> level).max(1));
+    let mut near = [0; 2];
+    let mut far = [0; 2];
+    let mut f = [0.0; 2];
+    for axis in 0..2 {
+        let count = to_f32(size[axis]);
+        let x = t[axis] * count - 0.5;
+        let corner = x.floor();
+        f[axis] = x - corner;
+        near[axis] = to_u32(neighbour(corner, count, wraps[axis]));
+        far[axis] = to_u32(neighbour(corner + 1.0, count, wraps[axis]));
+    }
+    let first = sampler.word(record.wrapping_add(image::LEVELS).wrapping_add(level));
+    let texel = |x: u32, y: u32| {
+        let index = y.wrapping_mul(size[0]).wrapping_add(x);
+        V::texel(
+            sampler,
+            first.wrapping_add(index.wrapping_mul(image::TEXEL_WORDS)),
+        )
+    };
+    let top = weighted(texel(near[0], near[1]), texel(far[0], near[1]), f[0]);
+    let bottom = weighted(texel(near[0], far[1]), texel(far[0], far[1]), f[0]);
+    weighted(top, bottom, f[1])
+}
+
+/// `lod` 0 is the finest level; less is 0, and the last level is kept beyond the end.
+pub(super) fn trilinear<V: Value>(
+    sampler: &Sampler<'_>,
+    record: u32,
+    lod: f32,
+    t: [f32; 2],
+    wraps: [bool; 2],
+) -> V {
+    let count = sampler.word(record.wrapping_add(image::LEVEL_COUNT));
+    let coarsest = to_f32(count.max(1) - 1);
+    let kept = clamp(lod, 0.0, coarsest.min(15.0));
+    let level = kept.floor();
+    let f = kept - level;
+    let fine = bilinear(sampler, record, to_u32(level), t, wraps);
+    if f <= 0.0 {
+        return fine;
+    }
+    weighted(
+        fine,
+        bilinear(sampler, record, to_u32(level) + 1, t, wraps),
+        f,
+    )
+}
+
+/// A patch that stands for what is not vector: nothing outside its rectangle.
+pub(super) fn entry<V: Value>(sampler: &Sampler<'_>, index: u32, lookup: &Lookup) -> V {
+    let s = &sampler.settings;
+    let record = index.wrapping_mul(IMAGE_WORDS).wrapping_add(s.images);
+    let rect = sampler.word_float4(record.wrapping_add(image::RECT_UV));
+    let size = [rect[2] - rect[0], rect[3] - rect[1]];
+    let t = [
+        (lookup.uv[0] - rect[0]) / size[0],
+        (lookup.uv[1] - rect[1]) / size[1],
+    ];
+    if t.iter().any(|t| *t < 0.0 || *t > 1.0) {
+        return V::ZERO;
+    }
+    let width = to_f32(sampler.word(record.wrapping_add(image::SIZE)));
+    let texels = lookup.width_cells * width / (size[0] * s.scale[0]);
+    trilinear(sampler, record, texels.max(1.0).log2(), t, [false; 2])
+}

@@ -1,0 +1,73 @@
+//! Twin of `core/math.wgsl`, and of the WGSL built-ins that Rust lacks.
+
+pub(super) fn median(v: [f32; 3]) -> f32 {
+    v[0].min(v[1]).max(v[0].max(v[1]).min(v[2]))
+}
+
+pub(super) fn clamp(x: f32, low: f32, high: f32) -> f32 {
+    x.max(low).min(high)
+}
+
+pub(super) fn length([x, y]: [f32; 2]) -> f32 {
+    (x * x + y * y).sqrt()
+}
+
+pub(super) fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
+    let t = clamp((x - low) / (high - low), 0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// The integer part of a float that is not negative; what does not fit saturates.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "saturation is what WGSL's u32() does; callers have clamped"
+)]
+pub(super) fn to_u32(x: f32) -> u32 {
+    x as u32
+}
+
+/// Counts of cells and texels, far below 2^24.
+#[expect(clippy::cast_precision_loss, reason = "as WGSL's f32()")]
+pub(super) fn to_f32(x: u32) -> f32 {
+    x as f32
+}
+
+/// A half's value by exponent arithmetic: exact for every finite half, denormal or not.
+pub(super) fn half_to_f32(bits: u32) -> f32 {
+    /// 2^112, the difference of the exponents' biases.
+    const REBIAS: f32 = f32::from_bits((127 + 112) << 23);
+    let magnitude = f32::from_bits((bits & 0x7fff) << 13) * REBIAS;
+    f32::from_bits(magnitude.to_bits() | (bits & 0x8000) << 16)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use half::f16;
+
+    #[test]
+    fn every_finite_half_is_exact() {
+        for bits in 0..=u16::MAX {
+            let half = f16::from_bits(bits);
+            if half.is_finite() {
+                assert_eq!(
+                    half_to_f32(u32::from(bits)).to_bits(),
+                    half.to_f32().to_bits()
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn median_of_every_order() {
+        for v in [
+            [1.0, 2.0, 3.0],
+            [2.0, 1.0, 3.0],
+            [3.0, 1.0, 2.0],
+            [3.0, 2.0, 1.0],
+        ] {
+            assert!((median(v) - 2.0).abs() < f32::EPSILON, "{v:?}");
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! Twin of `vtex/minify_mips.wgsl`.
+
+use super::address::wraps;
+use super::cell::cells;
+use super::image::trilinear;
+use super::math::{clamp, to_f32};
+use super::{Lookup, Sampler, Value};
+use crate::layout::image;
+use vtex_format::Features;
+
+/// Cells up to half a texel of mip 0, the raster chain from one texel on, a fade between.
+pub(super) fn minify<V: Value>(sampler: &Sampler<'_>, lookup: &Lookup) -> V {
+    let s = &sampler.settings;
+    if !s.has(Features::MIPS) {
+        return cells(sampler, lookup);
+    }
+    let width = to_f32(sampler.word(s.images.wrapping_add(image::SIZE)));
+    let texels = lookup.width_cells * width / s.scale[0];
+    if texels <= 0.5 {
+        return cells(sampler, lookup);
+    }
+    let lod = texels.log2();
+    let fade = clamp(lod + 1.0, 0.0, 1.0);
+    let image: V = trilinear(sampler, s.images, lod, lookup.uv, wraps(sampler));
+    if fade >= 1.0 {
+        return image;
+    }
+    cells::<V>(sampler, lookup)
+        .scaled(1.0 - fade)
+        .plus(image.scaled(fade))
+}

@@ -1,0 +1,56 @@
+//! The evaluator's Rust twin: the functions of `wgsl/vtex`, file by file, in the same order of
+//! `f32` operations. It is the oracle of the parity tests, the baker's judge of its own output
+//! and the back-end of previews on a machine without a GPU.
+//!
+//! Where the WGSL is specialised by choosing modules, the twin asks the header.
+
+mod address;
+mod cell;
+pub mod color;
+mod composite;
+mod coverage;
+mod entry;
+mod footprint;
+mod image;
+mod math;
+mod matrix;
+mod minify;
+mod msdf;
+mod over;
+mod sample;
+mod settings;
+mod source;
+mod value;
+mod words;
+
+use footprint::Lookup;
+use settings::Settings;
+use value::Value;
+
+/// A packed texture ready to be looked up. Cheap to make and to copy; lookups allocate nothing.
+///
+/// Words past the buffer's end read as zero, as on a GPU with robust buffer access, so a buffer
+/// that [`crate::pack`] did not make gives a wrong picture and never a panic.
+#[derive(Clone, Copy, Debug)]
+pub struct Sampler<'a> {
+    words: &'a [u32],
+    settings: Settings,
+}
+
+impl<'a> Sampler<'a> {
+    /// Reads the header of `words`, the words of one texture from [`crate::pack`].
+    pub fn new(words: &'a [u32]) -> Self {
+        Self {
+            words,
+            settings: Settings::read(words),
+        }
+    }
+
+    /// The twin of `vtex_sample`: the texture at `uv`, filtered over `footprint` (`axis0.u,
+    /// axis0.v, axis1.u, axis1.v`, full extents in uv; zeros for a point).
+    ///
+    /// Linear light, premultiplied alpha; a mask has its alpha in all four channels.
+    pub fn sample(&self, uv: [f32; 2], footprint: [f32; 4]) -> [f32; 4] {
+        sample::sample(self, uv, footprint)
+    }
+}

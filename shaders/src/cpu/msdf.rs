@@ -1,0 +1,55 @@
+//! Twin of `vtex/msdf.wgsl`: signed distance from a tile, and coverage from the distance.
+
+use super::Sampler;
+use super::math::{clamp, median, smoothstep, to_f32, to_u32};
+use crate::layout::FilterMode;
+
+const FOOTPRINT: u32 = FilterMode::Footprint as u32;
+const PAPER: u32 = FilterMode::Paper as u32;
+
+/// Red, green and blue of a texel, in \[0, 1\]; the fourth lane is idle.
+fn unpack(word: u32) -> [f32; 4] {
+    word.to_le_bytes()
+        .map(|byte| f32::from(byte) * (1.0 / 255.0))
+}
+
+fn mix(a: [f32; 4], b: [f32; 4], t: f32) -> [f32; 4] {
+    std::array::from_fn(|i| a[i] * (1.0 - t) + b[i] * t)
+}
+
+/// In texels, inside positive. `q` is the position inside the cell.
+pub(super) fn distance(sampler: &Sampler<'_>, tile: u32, q: [f32; 2]) -> f32 {
+    let n = sampler.settings.texels_per_cell;
+    let last = to_f32(n.max(1) - 1);
+    let x = q.map(|q| q * to_f32(n));
+    let corner = x.map(|x| clamp(x.floor(), 0.0, last));
+    let f = [x[0] - corner[0], x[1] - corner[1]];
+    let pitch = n.wrapping_add(1);
+    let first = tile
+        .wrapping_mul(pitch.wrapping_mul(pitch))
+        .wrapping_add(sampler.settings.tiles)
+        .wrapping_add(to_u32(corner[1]).wrapping_mul(pitch))
+        .wrapping_add(to_u32(corner[0]));
+    let above: [u32; 2] = sampler.words(first);
+    let below: [u32; 2] = sampler.words(first.wrapping_add(pitch));
+    let top = mix(unpack(above[0]), unpack(above[1]), f[0]);
+    let bottom = mix(unpack(below[0]), unpack(below[1]), f[0]);
+    let [r, g, b, _] = mix(top, bottom, f[1]);
+    (median([r, g, b]) - 0.5) * sampler.settings.distance_range
+}
+
+pub(super) fn coverage(sampler: &Sampler<'_>, distance: f32, width_cells: f32) -> f32 {
+    let s = &sampler.settings;
+    match s.filter {
+        FOOTPRINT => {
+            let width = width_cells * to_f32(s.texels_per_cell);
+            clamp(distance / width.max(1e-6) + 0.5, 0.0, 1.0)
+        }
+        PAPER => {
+            // [SFG22] eq. 1.
+            let m = distance / s.distance_range + 0.5;
+            smoothstep(0.5 - s.smoothing, 0.5 + s.smoothing, m)
+        }
+        _ => f32::from(u8::from(distance > 0.0)),
+    }
+}

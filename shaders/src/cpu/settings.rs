@@ -1,0 +1,69 @@
+//! The header, read once. Twin of `vtex/settings_header.wgsl`.
+
+use super::words::word_of;
+use crate::layout::{PAINT_WORDS, entry, header, paint};
+use vtex_format::Features;
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Settings {
+    pub(super) filter: u32,
+    pub(super) address: [u32; 2],
+    pub(super) texture_matrix: [f32; 6],
+    pub(super) scale: [f32; 2],
+    pub(super) offset: [f32; 2],
+    pub(super) grid_size: [u32; 2],
+    pub(super) texels_per_cell: u32,
+    pub(super) distance_range: f32,
+    pub(super) smoothing: f32,
+    pub(super) outline_width: f32,
+    /// Twin of `vtex_coverage_outline_head`; `None` without the feature.
+    pub(super) outline_head: Option<u32>,
+    pub(super) cells: u32,
+    pub(super) entries: u32,
+    pub(super) paints: u32,
+    pub(super) tiles: u32,
+    pub(super) images: u32,
+    pub(super) features: u32,
+}
+
+impl Settings {
+    pub(super) fn read(words: &[u32]) -> Self {
+        let word = |index| word_of(words, index);
+        let float = |index| f32::from_bits(word(index));
+        let float2 = |index| [float(index), float(index + 1)];
+        let m = header::TEXTURE_MATRIX;
+        let mut settings = Self {
+            filter: word(header::FILTER),
+            address: [word(header::ADDRESS_U), word(header::ADDRESS_V)],
+            texture_matrix: [0, 1, 2, 3, 4, 5].map(|i| float(m + i)),
+            scale: float2(header::CELL_FROM_UV_SCALE),
+            offset: float2(header::CELL_FROM_UV_OFFSET),
+            grid_size: [word(header::GRID_SIZE), word(header::GRID_SIZE + 1)],
+            texels_per_cell: word(header::TEXELS_PER_CELL),
+            distance_range: float(header::DISTANCE_RANGE),
+            smoothing: float(header::SMOOTHING),
+            outline_width: float(header::OUTLINE_WIDTH),
+            outline_head: None,
+            cells: word(header::CELLS),
+            entries: word(header::ENTRIES),
+            paints: word(header::PAINTS),
+            tiles: word(header::TILES),
+            images: word(header::IMAGES),
+            features: word(header::FEATURES),
+        };
+        if settings.has(Features::OUTLINE) {
+            let index = word(header::OUTLINE_PAINT);
+            let first = index
+                .wrapping_mul(PAINT_WORDS)
+                .wrapping_add(settings.paints);
+            let alpha = float(first.wrapping_add(paint::LINEAR + 3));
+            let opaque = if alpha >= 1.0 { entry::OPAQUE_BIT } else { 0 };
+            settings.outline_head = Some(index | opaque);
+        }
+        settings
+    }
+
+    pub(super) fn has(&self, feature: u32) -> bool {
+        self.features & feature != 0
+    }
+}

@@ -1,0 +1,24 @@
+//! Twin of `vtex/source_image.wgsl` and `vtex/encoded_image.wgsl`: colour of an entry.
+
+use super::value::paint_first;
+use super::{Lookup, Sampler, Value, color, image};
+use crate::layout::{entry, paint};
+
+pub(super) fn source<V: Value>(sampler: &Sampler<'_>, head: u32, lookup: &Lookup) -> V {
+    let index = head & entry::INDEX_MASK;
+    if head >> entry::KIND_SHIFT == entry::IMAGE {
+        return image::entry(sampler, index, lookup);
+    }
+    V::solid(sampler, index)
+}
+
+/// sRGB-encoded, premultiplied.
+pub(super) fn encoded(sampler: &Sampler<'_>, head: u32, lookup: &Lookup) -> [f32; 4] {
+    let index = head & entry::INDEX_MASK;
+    if head >> entry::KIND_SHIFT == entry::IMAGE {
+        return color::encode_premultiplied(image::entry(sampler, index, lookup));
+    }
+    let first = paint_first(sampler, index);
+    let [r, g, b, a] = sampler.word_float4(first.wrapping_add(paint::ENCODED));
+    [r * a, g * a, b * a, a]
+}

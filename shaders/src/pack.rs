@@ -1,0 +1,164 @@
+//! A file as the words that evaluators read.
+
+use half::f16;
+use vtex_format::{
+    AddressMode, Features, Image, MAX_MIPS, PaintRecord, SHADER_ABI, SamplerSettings, SpecKey,
+    VtexFile,
+};
+
+use crate::cpu::color;
+use crate::layout::{FilterMode, IMAGE_WORDS, header, image};
+use crate::spec::spec_key_with;
+
+/// What a caller sets or overrides when a texture is loaded.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PackOptions {
+    /// How lookups filter.
+    pub filter: FilterMode,
+    /// Address modes along u and v instead of the file's.
+    pub address: Option<[AddressMode; 2]>,
+    /// Texture matrix instead of the file's, as [`SamplerSettings::texture_matrix`].
+    pub texture_matrix: Option<[f32; 6]>,
+    /// Half width S of [SFG22] eq. 1 instead of the file's, in (0, 0.5].
+    pub smoothing: Option<f32>,
+}
+
+impl PackOptions {
+    /// The file's settings with the overrides in place.
+    pub(crate) fn applied_to(&self, stored: &SamplerSettings) -> SamplerSettings {
+        SamplerSettings {
+            texture_matrix: self.texture_matrix.unwrap_or(stored.texture_matrix),
+            address: self.address.unwrap_or(stored.address),
+            smoothing: self.smoothing.unwrap_or(stored.smoothing),
+            mask: stored.mask,
+            outline: stored.outline,
+        }
+    }
+}
+
+/// The words of `file`, laid out as [`header`] says, with every offset relative to the first.
+///
+/// The words go with the text of [`spec_key_with`] of the same file and options. `file` is to be
+/// one that the format's validator finds nothing in; another gives a wrong picture, never a panic.
+pub fn pack(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
+    let mut words = header_words(file, options, &spec_key_with(file, options));
+    words.reserve(file.cells.len() + file.entries.len() + file.tiles.len() / 4);
+    section(&mut words, header::CELLS, &file.cells);
+    section(&mut words, header::ENTRIES, &file.entries);
+    let paints: Vec<u32> = file.paints.iter().flat_map(paint_words).collect();
+    section(&mut words, header::PAINTS, &paints);
+    let texels = file.tiles.chunks_exact(4);
+    let tiles: Vec<u32> = texels
+        .map(|t| u32::from_le_bytes([t[0], t[1], t[2], t[3]]))
+        .collect();
+    section(&mut words, header::TILES, &tiles);
+    image_words(&mut words, &file.images);
+    words
+}
+
+fn header_words(file: &VtexFile, options: &PackOptions, key: &SpecKey) -> Vec<u32> {
+    let sampler = options.applied_to(&file.meta.sampler);
+    let grid = &file.meta.grid;
+    let mut words = vec![0; header::WORDS as usize];
+    let mut put = |at: u32, values: &[u32]| {
+        words[at as usize..][..values.len()].copy_from_slice(values);
+    };
+    put(header::ABI, &[SHADER_ABI]);
+    put(header::FILTER, &[options.filter as u32]);
+    put(header::ADDRESS_U, &sampler.address.map(|mode| mode as u32));
+    put(
+        header::TEXTURE_MATRIX,
+        &sampler.texture_matrix.map(f32::to_bits),
+    );
+    put(
+        header::CELL_FROM_UV_SCALE,
+        &grid.cell_from_uv_scale.map(f32::to_bits),
+    );
+    put(
+        header::CELL_FROM_UV_OFFSET,
+        &grid.cell_from_uv_offset.map(f32::to_bits),
+    );
+    put(header::GRID_SIZE, &grid.size_cells);
+    put(header::TEXELS_PER_CELL, &[grid.texels_per_cell]);
+    put(
+        header::DISTANCE_RANGE,
+        &[file.meta.distance_range_texels.to_bits()],
+    );
+    put(header::SMOOTHING, &[sampler.smoothing.to_bits()]);
+    if let (Some(outline), true) = (sampler.outline, key.features & Features::OUTLINE != 0) {
+        put(header::OUTLINE_WIDTH, &[outline.width_texels.to_bits()]);
+        put(header::OUTLINE_PAINT, &[outline.paint]);
+    }
+    put(header::FEATURES, &[key.features]);
+    words
+}
+
+/// Appends a section and writes its first word into the header.
+fn section(words: &mut Vec<u32>, header_word: u32, values: &[u32]) {
+    words[header_word as usize] = word_index(words.len());
+    words.extend_from_slice(values);
+}
+
+/// A texture beyond 2^32 words fits no GPU; its offsets saturate and lookups read zeros.
+fn word_index(index: usize) -> u32 {
+    u32::try_from(index).unwrap_or(u32::MAX)
+}
+
+fn paint_words(paint: &PaintRecord) -> [u32; 8] {
+    let [r, g, b, a] = paint.color;
+    let rgb = color::decode([r, g, b]).map(|c| c * a);
+    [rgb[0], rgb[1], rgb[2], a, r, g, b, a].map(f32::to_bits)
+}
+
+fn image_words(words: &mut Vec<u32>, images: &[Image]) {
+    let records = words.len();
+    words[header::IMAGES as usize] = word_index(records);
+    words[header::IMAGE_COUNT as usize] = word_index(images.len());
+    words.resize(records + images.len() * IMAGE_WORDS as usize, 0);
+    let halves = TexelHalves::new();
+    for (index, stored) in images.iter().enumerate() {
+        let record = records + index * IMAGE_WORDS as usize;
+        let put = |at: u32, values: &[u32], words: &mut Vec<u32>| {
+            words[record + at as usize..][..values.len()].copy_from_slice(values);
+        };
+        let levels = &stored.mips[..stored.mips.len().min(MAX_MIPS as usize)];
+        put(image::RECT_UV, &stored.rect_uv.map(f32::to_bits), words);
+        put(image::SIZE, &stored.size, words);
+        put(image::LEVEL_COUNT, &[word_index(levels.len())], words);
+        for (level, texels) in (image::LEVELS..).zip(levels) {
+            let first = word_index(words.len());
+            put(level, &[first], words);
+            words.extend(texels.chunks_exact(4).flat_map(|texel| halves.words(texel)));
+        }
+    }
+}
+
+/// Halves of the 256 values that a stored channel can have.
+struct TexelHalves {
+    color: [u32; 256],
+    alpha: [u32; 256],
+}
+
+impl TexelHalves {
+    fn new() -> Self {
+        let half = |value: f32| u32::from(f16::from_f32(value).to_bits());
+        let mut halves = Self {
+            color: [0; 256],
+            alpha: [0; 256],
+        };
+        for (byte, (color, alpha)) in
+            (0..=u8::MAX).zip(halves.color.iter_mut().zip(&mut halves.alpha))
+        {
+            let value = f32::from(byte) / 255.0;
+            *color = half(color::decode([value; 3])[0]);
+            *alpha = half(value);
+        }
+        halves
+    }
+
+    fn words(&self, texel: &[u8]) -> [u32; 2] {
+        let color = |channel: usize| self.color[usize::from(texel[channel])];
+        let alpha = self.alpha[usize::from(texel[3])];
+        [color(0) | color(1) << 16, color(2) | alpha << 16]
+    }
+}

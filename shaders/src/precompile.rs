@@ -1,0 +1,89 @@
+//! The batch kernel as SPIR-V, made and checked by naga at bake time.
+
+use naga::back::spv;
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+use vtex_format::{SHADER_ABI, ShaderBlob, SpecKey};
+
+use crate::specialize::{BindingSlot, batch_kernel, fragment};
+
+/// SPIR-V version of the kernel: Vulkan 1.1's.
+const SPIRV_VERSION: (u8, u8) = (1, 3);
+
+/// `unpack2x16float`, which every WebGPU device has.
+const CAPABILITIES: Capabilities = Capabilities::SHADER_FLOAT16_IN_FLOAT32;
+
+/// Why a text could not be compiled.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PrecompileError {
+    /// It is not WGSL.
+    #[error("cannot parse the shader: {0}")]
+    Parse(String),
+    /// It is WGSL but breaks a rule.
+    #[error("the shader is not valid: {0}")]
+    Invalid(String),
+    /// It is valid but has no SPIR-V form.
+    #[error("cannot write the shader as SPIR-V: {0}")]
+    Write(String),
+}
+
+/// SPIR-V words of `wgsl`, fully validated. Same text, same words.
+///
+/// # Errors
+/// [`PrecompileError`] with naga's diagnostic.
+pub fn spirv(wgsl: &str) -> Result<Vec<u32>, PrecompileError> {
+    let module = naga::front::wgsl::parse_str(wgsl)
+        .map_err(|error| PrecompileError::Parse(error.emit_to_string(wgsl)))?;
+    let info = Validator::new(ValidationFlags::all(), CAPABILITIES)
+        .validate(&module)
+        .map_err(|error| PrecompileError::Invalid(error.emit_to_string(wgsl)))?;
+    let options = spv::Options {
+        lang_version: SPIRV_VERSION,
+        flags: spv::WriterFlags::empty(),
+        ..spv::Options::default()
+    };
+    spv::write_vec(&module, &info, &options, None)
+        .map_err(|error| PrecompileError::Write(error.to_string()))
+}
+
+/// What `SHDR` stores for `key`: the fragment's text at group 0, binding 0, and the batch
+/// kernel's SPIR-V.
+///
+/// # Errors
+/// [`PrecompileError`] when naga refuses the kernel; a test compiles every key.
+pub fn shader_blob(key: &SpecKey) -> Result<ShaderBlob, PrecompileError> {
+    Ok(ShaderBlob {
+        abi: SHADER_ABI,
+        wgsl_fragment: fragment(key, BindingSlot::default()),
+        batch_spirv: spirv(&batch_kernel(key))?,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use vtex_format::Features;
+
+    #[test]
+    fn kernels_compile_to_the_same_words_twice() {
+        let key = SpecKey {
+            abi: SHADER_ABI,
+            features: Features::ALL & !Features::MASK,
+            address_u: 1,
+            address_v: 3,
+            texels_per_cell: 8,
+            max_entries: 40,
+            reserved: [0; 2],
+        };
+        let blob = shader_blob(&key).unwrap();
+        assert_eq!(blob, shader_blob(&key).unwrap());
+        assert_eq!(blob.batch_spirv[0], 0x0723_0203, "SPIR-V's magic number");
+    }
+
+    #[test]
+    fn errors_say_what_is_wrong() {
+        assert!(matches!(spirv("fn f( {"), Err(PrecompileError::Parse(_))));
+        let invalid = "fn f() -> u32 { return 1.0; }";
+        assert!(spirv(invalid).is_err(), "a return of the wrong type");
+    }
+}

@@ -1,0 +1,239 @@
+//! From a key to the text of its shader: modules chosen, constants written, nothing else.
+
+use std::fmt::Write as _;
+
+use vtex_format::{AddressMode, Features, MAX_ENTRIES_PER_CELL, SpecKey};
+
+use crate::link::{LinkContext, link};
+use crate::spec::normalized;
+
+/// Queries a workgroup of the batch kernel answers.
+pub const BATCH_WORKGROUP: u32 = 64;
+
+/// Workgroups a dispatch may have along an axis on every WebGPU device.
+const MAX_WORKGROUPS: u32 = 65_535;
+
+/// Where the words of the texture are bound.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BindingSlot {
+    /// `@group`.
+    pub group: u32,
+    /// `@binding`.
+    pub binding: u32,
+}
+
+/// WGSL for other people's shaders: declares `vtex_words`, a read-only storage buffer
+/// `array<u32>` at `slot`, and `fn vtex_sample(uv: vec2f, footprint: vec4f) -> vec4f`.
+///
+/// Every name in it starts with `vtex_`, `Vtex` or `VTEX_`. The buffer holds one packed texture
+/// of this key. Same key and slot, same text.
+pub fn fragment(key: &SpecKey, slot: BindingSlot) -> String {
+    linked("root/fragment", &single_context(key, slot))
+}
+
+/// WGSL of the standalone batch kernel, entry point `vtex_batch`.
+///
+/// Group 0: binding 0 the words, binding 1 an array of [`crate::layout::BatchQuery`], binding 2
+/// the results, an array of `vec4f`. [`batch_dispatch`] gives the workgroup counts; queries
+/// beyond either array's end are passed over.
+pub fn batch_kernel(key: &SpecKey) -> String {
+    linked("root/batch", &single_context(key, BindingSlot::default()))
+}
+
+/// Workgroup counts for `query_count` queries of the batch kernel.
+pub fn batch_dispatch(query_count: u32) -> [u32; 3] {
+    let groups = query_count.div_ceil(BATCH_WORKGROUP);
+    let rows = groups.div_ceil(MAX_WORKGROUPS);
+    let columns = if rows == 0 { 0 } else { groups.div_ceil(rows) };
+    [columns, rows, u32::from(rows != 0)]
+}
+
+/// WGSL with `fn vtex_sample_at(vt: u32, uv: vec2f, footprint: vec4f) -> vec4f` for several packed
+/// textures one after the other in `vtex_words` at `slot`; `vt` is a texture's first word.
+///
+/// `features` is the union of the textures' [`SpecKey::features`].
+pub fn scene_evaluator(features: u32, slot: BindingSlot) -> String {
+    linked("vtex/sample", &scene_context(features, slot))
+}
+
+/// The context in which a module that imports `vtex/sample` finds [`scene_evaluator`]'s modules.
+pub fn scene_context(features: u32, slot: BindingSlot) -> LinkContext {
+    let key = normalized(&SpecKey {
+        abi: 0,
+        features,
+        address_u: AddressMode::Border as u32,
+        address_v: AddressMode::Border as u32,
+        texels_per_cell: 1,
+        max_entries: MAX_ENTRIES_PER_CELL,
+        reserved: [0; 2],
+    });
+    let has = |feature: u32| key.features & feature != 0;
+    // Some textures may be masks and others not: all are looked up in colour.
+    let value = if has(Features::MASK) {
+        "value_any"
+    } else {
+        "value_color"
+    };
+    let constants = format!("const VTEX_KEY_MAX_ENTRIES: u32 = {}u;\n", key.max_entries);
+    slots(key.features & !Features::MASK)
+        .define("vtex/key", binding(slot) + &constants)
+        .fill("vtex/value", &format!("vtex/{value}"))
+        .fill("vtex/settings", "vtex/settings_header")
+        .fill("vtex/address", "vtex/address_any")
+}
+
+fn single_context(key: &SpecKey, slot: BindingSlot) -> LinkContext {
+    let key = normalized(key);
+    let clamps = [key.address_u, key.address_v] == [AddressMode::Clamp as u32; 2];
+    let mut text = binding(slot);
+    for (name, value) in [
+        ("FEATURES", key.features),
+        ("ADDRESS_U", key.address_u),
+        ("ADDRESS_V", key.address_v),
+        ("TEXELS_PER_CELL", key.texels_per_cell),
+        ("MAX_ENTRIES", key.max_entries),
+    ] {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "const VTEX_KEY_{name}: u32 = {value}u;");
+    }
+    slots(key.features)
+        .define("vtex/key", text)
+        .fill("vtex/settings", "vtex/settings_key")
+        .fill(
+            "vtex/address",
+            if clamps {
+                "vtex/address_clamp"
+            } else {
+                "vtex/address_any"
+            },
+        )
+}
+
+fn binding(BindingSlot { group, binding }: BindingSlot) -> String {
+    format!("@group({group}) @binding({binding}) var<storage, read> vtex_words: array<u32>;\n\n")
+}
+
+/// The modules that a set of features needs.
+fn slots(features: u32) -> LinkContext {
+    let has = |feature: u32| features & feature != 0;
+    let pick = |feature: u32, with: &'static str, without: &'static str| {
+        if has(feature) { with } else { without }
+    };
+    // A mask composites alpha alone, which any order of entries gives.
+    let composites = has(Features::TRANSLUCENT) && !has(Features::MASK);
+    let coverage = match (has(Features::MSDF), has(Features::OUTLINE)) {
+        (false, _) => "vtex/coverage_full",
+        (true, false) => "vtex/coverage_msdf",
+        (true, true) => "vtex/coverage_outline",
+    };
+    let composite = match composites {
+        true => "vtex/composite_translucent",
+        false => "vtex/composite_front",
+    };
+    [
+        (
+            "vtex/matrix",
+            pick(
+                Features::TEXTURE_MATRIX,
+                "vtex/matrix_affine",
+                "vtex/matrix_identity",
+            ),
+        ),
+        (
+            "vtex/value",
+            pick(Features::MASK, "vtex/value_mask", "vtex/value_color"),
+        ),
+        (
+            "vtex/paint",
+            pick(Features::MASK, "vtex/paint_alpha", "vtex/paint_color"),
+        ),
+        (
+            "vtex/texel",
+            pick(Features::MASK, "vtex/texel_alpha", "vtex/texel_color"),
+        ),
+        (
+            "vtex/minify",
+            pick(Features::MIPS, "vtex/minify_mips", "vtex/minify_none"),
+        ),
+        (
+            "vtex/cells",
+            pick(Features::LISTS, "vtex/cells_list", "vtex/cells_solid"),
+        ),
+        (
+            "vtex/source",
+            pick(Features::IMAGES, "vtex/source_image", "vtex/source_solid"),
+        ),
+        (
+            "vtex/encoded",
+            pick(Features::IMAGES, "vtex/encoded_image", "vtex/encoded_solid"),
+        ),
+        (
+            "vtex/entry",
+            pick(Features::OUTLINE, "vtex/entry_outline", "vtex/entry_shape"),
+        ),
+        (
+            "vtex/over",
+            pick(Features::OUTLINE, "vtex/over_outline", "vtex/over_shape"),
+        ),
+        ("vtex/coverage", coverage),
+        ("vtex/composite", composite),
+    ]
+    .into_iter()
+    .fold(LinkContext::default(), |context, (slot, module)| {
+        context.fill(slot, module)
+    })
+}
+
+fn linked(root: &str, context: &LinkContext) -> String {
+    link(root, context).expect("the crate's own modules link: a test tries every key")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn every_key() -> impl Iterator<Item = SpecKey> {
+        (0..=Features::ALL).map(|features| SpecKey {
+            abi: vtex_format::SHADER_ABI,
+            features,
+            address_u: features & 3,
+            address_v: (features >> 2) & 3,
+            texels_per_cell: 1 + features % 16,
+            max_entries: features,
+            reserved: [0; 2],
+        })
+    }
+
+    #[test]
+    fn every_key_links_the_same_text_twice() {
+        for key in every_key() {
+            let slot = BindingSlot {
+                group: 3,
+                binding: 7,
+            };
+            let text = fragment(&key, slot);
+            assert_eq!(text, fragment(&key, slot));
+            assert!(text.contains("@group(3) @binding(7) var<storage, read> vtex_words"));
+            assert!(batch_kernel(&key).contains("fn vtex_batch("));
+            assert!(scene_evaluator(key.features, slot).contains("fn vtex_sample_at("));
+        }
+    }
+
+    #[test]
+    fn dispatches_cover_every_query_within_the_limits() {
+        assert_eq!(batch_dispatch(0), [0, 0, 0]);
+        for count in [1, 64, 65, 1_000_000, 65_535 * 64, 65_535 * 64 + 1, u32::MAX] {
+            let [x, y, z] = batch_dispatch(count);
+            assert!(
+                x <= MAX_WORKGROUPS && y <= MAX_WORKGROUPS && z == 1,
+                "{count}"
+            );
+            let lanes = u64::from(x) * u64::from(y) * u64::from(BATCH_WORKGROUP);
+            let spare = lanes - u64::from(count);
+            assert!(
+                spare < u64::from(BATCH_WORKGROUP * (y + 1)),
+                "{count}: {spare} idle lanes"
+            );
+        }
+    }
+}

@@ -1,0 +1,61 @@
+// The packed words, as in shaders/src/layout.rs; a test compares every constant through naga.
+
+const VTEX_HEADER_ABI: u32 = 0u;
+const VTEX_HEADER_FILTER: u32 = 1u;
+const VTEX_HEADER_ADDRESS_U: u32 = 2u;
+const VTEX_HEADER_ADDRESS_V: u32 = 3u;
+const VTEX_HEADER_TEXTURE_MATRIX: u32 = 4u;
+const VTEX_HEADER_CELL_FROM_UV_SCALE: u32 = 10u;
+const VTEX_HEADER_CELL_FROM_UV_OFFSET: u32 = 12u;
+const VTEX_HEADER_GRID_SIZE: u32 = 14u;
+const VTEX_HEADER_TEXELS_PER_CELL: u32 = 16u;
+const VTEX_HEADER_DISTANCE_RANGE: u32 = 17u;
+const VTEX_HEADER_SMOOTHING: u32 = 18u;
+const VTEX_HEADER_OUTLINE_WIDTH: u32 = 19u;
+const VTEX_HEADER_OUTLINE_PAINT: u32 = 20u;
+const VTEX_HEADER_CELLS: u32 = 21u;
+const VTEX_HEADER_ENTRIES: u32 = 22u;
+const VTEX_HEADER_PAINTS: u32 = 23u;
+const VTEX_HEADER_TILES: u32 = 24u;
+const VTEX_HEADER_IMAGES: u32 = 25u;
+const VTEX_HEADER_IMAGE_COUNT: u32 = 26u;
+const VTEX_HEADER_FEATURES: u32 = 27u;
+const VTEX_HEADER_WORDS: u32 = 32u;
+
+const VTEX_FILTER_POINT: u32 = 0u;
+const VTEX_FILTER_FOOTPRINT: u32 = 1u;
+const VTEX_FILTER_PAPER: u32 = 2u;
+
+const VTEX_ADDRESS_CLAMP: u32 = 0u;
+const VTEX_ADDRESS_REPEAT: u32 = 1u;
+const VTEX_ADDRESS_MIRROR: u32 = 2u;
+const VTEX_ADDRESS_BORDER: u32 = 3u;
+
+const VTEX_FEATURE_MIPS: u32 = 8u;
+const VTEX_FEATURE_MASK: u32 = 32u;
+
+const VTEX_CELL_TAG_SHIFT: u32 = 30u;
+const VTEX_CELL_PAYLOAD_MASK: u32 = 0x3fffffffu;
+const VTEX_CELL_EMPTY: u32 = 0u;
+const VTEX_CELL_SOLID: u32 = 1u;
+const VTEX_CELL_LIST: u32 = 2u;
+
+const VTEX_ENTRY_WORDS: u32 = 2u;
+const VTEX_ENTRY_KIND_SHIFT: u32 = 28u;
+const VTEX_ENTRY_LAST_BIT: u32 = 0x08000000u;
+const VTEX_ENTRY_OPAQUE_BIT: u32 = 0x04000000u;
+const VTEX_ENTRY_INDEX_MASK: u32 = 0x03ffffffu;
+const VTEX_ENTRY_FULL: u32 = 0u;
+const VTEX_ENTRY_MSDF: u32 = 1u;
+const VTEX_ENTRY_IMAGE: u32 = 3u;
+
+const VTEX_PAINT_WORDS: u32 = 8u;
+const VTEX_PAINT_LINEAR: u32 = 0u;
+const VTEX_PAINT_ENCODED: u32 = 4u;
+
+const VTEX_IMAGE_WORDS: u32 = 24u;
+const VTEX_IMAGE_RECT_UV: u32 = 0u;
+const VTEX_IMAGE_SIZE: u32 = 4u;
+const VTEX_IMAGE_LEVEL_COUNT: u32 = 6u;
+const VTEX_IMAGE_LEVELS: u32 = 8u;
+const VTEX_IMAGE_TEXEL_WORDS: u32 = 2u;

@@ -1,0 +1,19 @@
+//!use core/query
+//!use root/fragment
+// The batch kernel: an array of queries in, an array of colours out.
+
+@group(0) @binding(1) var<storage, read> vtex_queries: array<VtexBatchQuery>;
+@group(0) @binding(2) var<storage, read_write> vtex_results: array<vec4f>;
+
+@compute @workgroup_size(64)
+fn vtex_batch(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) group_count: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let index = (group.x + group.y * group_count.x) * 64u + lane;
+    if index < min(arrayLength(&vtex_queries), arrayLength(&vtex_results)) {
+        let query = vtex_queries[index];
+        vtex_results[index] = vtex_sample(query.uv, query.footprint);
+    }
+}

@@ -1,0 +1,12 @@
+//!use core/layout
+//!use vtex/cell
+//!use vtex/paint
+// The picture from cells that are empty or of a single colour.
+
+fn vtex_cells(vt: u32, lookup: VtexLookup) -> VtexValue {
+    let word = vtex_cell(vt, lookup).word;
+    if (word >> VTEX_CELL_TAG_SHIFT) == VTEX_CELL_EMPTY {
+        return VtexValue(0.0);
+    }
+    return vtex_paint_solid(vt, word & VTEX_CELL_PAYLOAD_MASK);
+}

@@ -1,0 +1,24 @@
+//!use core/layout
+//!use vtex/words
+//!use vtex/footprint
+//!use vtex/msdf
+// Coverage of an entry and of the ring around it, [SFG22] eq. 2.
+
+// x: the shape, y: the ring; their sum is at most 1.
+fn vtex_coverage_outline(vt: u32, entry: vec2u, lookup: VtexLookup) -> vec2f {
+    if (entry.x >> VTEX_ENTRY_KIND_SHIFT) != VTEX_ENTRY_MSDF {
+        return vec2f(1.0, 0.0);
+    }
+    let distance = vtex_msdf_distance(vt, entry.y, lookup.q);
+    let grown = distance + vtex_word_float(vt, VTEX_HEADER_OUTLINE_WIDTH);
+    let inner = vtex_msdf_coverage(vt, distance, lookup.width_cells);
+    let outer = vtex_msdf_coverage(vt, grown, lookup.width_cells);
+    return vec2f(inner, max(outer - inner, 0.0));
+}
+
+// The ring as the first word of an entry that fills its cell.
+fn vtex_coverage_outline_head(vt: u32) -> u32 {
+    let paint = vtex_word(vt, VTEX_HEADER_OUTLINE_PAINT);
+    let alpha = vtex_word(vt, VTEX_HEADER_PAINTS) + paint * VTEX_PAINT_WORDS + 3u;
+    return select(paint, paint | VTEX_ENTRY_OPAQUE_BIT, vtex_word_float(vt, alpha) >= 1.0);
+}

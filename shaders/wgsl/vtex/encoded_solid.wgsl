@@ -1,0 +1,12 @@
+//!use core/layout
+//!use vtex/words
+//!use vtex/footprint
+// Colour of an entry as compositing wants it where all are solid paints.
+
+// sRGB-encoded, premultiplied.
+fn vtex_encoded(vt: u32, head: u32, lookup: VtexLookup) -> vec4f {
+    let index = head & VTEX_ENTRY_INDEX_MASK;
+    let first = vtex_word(vt, VTEX_HEADER_PAINTS) + index * VTEX_PAINT_WORDS;
+    let straight = vtex_word_float4(vt, first + VTEX_PAINT_ENCODED);
+    return vec4f(straight.rgb * straight.a, straight.a);
+}

@@ -1,0 +1,8 @@
+//!use core/layout
+//!use vtex/footprint
+//!use vtex/paint
+// Colour of an entry where all are solid paints.
+
+fn vtex_source(vt: u32, head: u32, lookup: VtexLookup) -> VtexValue {
+    return vtex_paint_solid(vt, head & VTEX_ENTRY_INDEX_MASK);
+}
