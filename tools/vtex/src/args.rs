@@ -245,7 +245,7 @@ pub struct Preview {
     /// PNG to write, or -
     #[arg(short, long, value_name = "PNG")]
     pub output: PathBuf,
-    /// Pixels: WxH, or N for the longer side
+    /// Pixels: `WxH`, or N for the longer side
     #[arg(long, default_value = "512", value_parser = size)]
     pub size: Size,
     /// Part of the canvas in uv: left, top, right, bottom
@@ -308,7 +308,7 @@ pub struct Render {
     /// .png (tone-mapped sRGB) or .exr (linear) to write
     #[arg(short, long, value_name = "PNG|EXR")]
     pub output: PathBuf,
-    /// Pixels: WxH, or N for the longer side
+    /// Pixels: `WxH`, or N for the longer side
     #[arg(long, default_value = "768", value_parser = size)]
     pub size: Size,
     /// Samples a pixel
