@@ -1,0 +1,154 @@
+//! A `.vtex` file as a buffer on the GPU, for use in any shader.
+
+use vtex_format::{SpecKey, VtexFile};
+use vtex_shaders::PackOptions;
+use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferUsages, Device, Queue};
+
+use crate::RuntimeError;
+use crate::gpu::{checked, filled_buffer};
+
+/// What a caller may decide at load; the file's own settings hold otherwise.
+#[derive(Clone, Debug, Default)]
+pub struct LoadOptions {
+    /// Filter mode and overrides of the file's sampler settings.
+    pub pack: PackOptions,
+}
+
+/// One vector texture on the GPU: a single read-only storage buffer.
+///
+/// Put the fragment in front of your own WGSL, bind the texture, call `vtex_sample`:
+///
+/// ```no_run
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let (device, queue): (wgpu::Device, wgpu::Queue) = unimplemented!();
+/// # let my_wgsl = ""; let bytes = vec![];
+/// let file = vtex_format::VtexFile::parse(&bytes, &vtex_format::Limits::default())?;
+/// let texture = vtex_runtime::GpuVtex::upload(&device, &queue, &file, &Default::default())?;
+/// let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+///     label: None,
+///     // `vtex_sample(uv, vec4f(dpdx(uv), dpdy(uv)))` in a fragment shader.
+///     source: wgpu::ShaderSource::Wgsl((texture.wgsl_fragment(1, 0) + my_wgsl).into()),
+/// });
+/// let layout = texture.bind_group_layout(); // group 1 of the pipeline's layout
+/// // ... and when drawing: pass.set_bind_group(1, texture.bind_group(), &[]);
+/// # Ok(()) }
+/// ```
+#[derive(Debug)]
+pub struct GpuVtex {
+    key: SpecKey,
+    buffer: Buffer,
+    layout: BindGroupLayout,
+    group: BindGroup,
+}
+
+impl GpuVtex {
+    /// Packs and uploads `file`.
+    ///
+    /// # Errors
+    /// [`RuntimeError::Limit`] when the packed texture is larger than one storage binding of the
+    /// device (128 MiB on core WebGPU) or does not fit its memory.
+    pub fn upload(
+        device: &Device,
+        queue: &Queue,
+        file: &VtexFile,
+        options: &LoadOptions,
+    ) -> Result<Self, RuntimeError> {
+        let words = vtex_shaders::pack(file, &options.pack);
+        let bytes = bytemuck::cast_slice(&words);
+        let buffer = filled_buffer(device, queue, "vtex texture", bytes, BufferUsages::STORAGE)?;
+        let (layout, group) = checked(device, "texture binding", || {
+            let layout = texture_layout(device);
+            let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("vtex texture"),
+                layout: &layout,
+                entries: &[wgpu::BindGroupEntry {
+                    binding: 0,
+                    resource: buffer.as_entire_binding(),
+                }],
+            });
+            (layout, group)
+        })?;
+        Ok(Self {
+            key: vtex_shaders::spec_key_with(file, &options.pack),
+            buffer,
+            layout,
+            group,
+        })
+    }
+
+    /// WGSL that declares the texture at `group` and `binding` and the function
+    /// `fn vtex_sample(uv: vec2f, footprint: vec4f) -> vec4f`: linear light, premultiplied.
+    ///
+    /// `footprint` holds two axes of the region to average, full extents in uv: in a fragment
+    /// shader `vec4f(dpdx(uv), dpdy(uv))`, zero for a point. Every name it declares starts with
+    /// `vtex_`, `Vtex` or `VTEX_`. Textures of the same [`GpuVtex::key`] share one text.
+    ///
+    /// [`GpuVtex::bind_group`] binds the texture at binding 0; with another `binding` bind
+    /// [`GpuVtex::buffer`] in a group of your own.
+    pub fn wgsl_fragment(&self, group: u32, binding: u32) -> String {
+        vtex_shaders::fragment(&self.key, vtex_shaders::BindingSlot { group, binding })
+    }
+
+    /// Layout of [`GpuVtex::bind_group`]: one read-only storage buffer at binding 0, visible to
+    /// fragment and compute shaders.
+    pub fn bind_group_layout(&self) -> &BindGroupLayout {
+        &self.layout
+    }
+
+    /// The texture, ready to be set.
+    pub fn bind_group(&self) -> &BindGroup {
+        &self.group
+    }
+
+    /// The texture's words.
+    pub fn buffer(&self) -> &Buffer {
+        &self.buffer
+    }
+
+    /// Decides the text of [`GpuVtex::wgsl_fragment`]: cache pipelines by it.
+    pub fn key(&self) -> &SpecKey {
+        &self.key
+    }
+}
+
+fn texture_layout(device: &Device) -> BindGroupLayout {
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("vtex texture"),
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only: true },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        }],
+    })
+}
+
+/// Several textures in one run of words.
+#[derive(Debug, Default)]
+pub(crate) struct PackedTextures {
+    /// All words.
+    pub(crate) words: Vec<u32>,
+    /// First word of each texture.
+    pub(crate) first_words: Vec<u32>,
+    /// Union of [`SpecKey::features`].
+    pub(crate) features: u32,
+}
+
+impl PackedTextures {
+    /// Packs `textures` one after the other; their offsets are relative, so they can be moved.
+    pub(crate) fn new(textures: &[(VtexFile, LoadOptions)]) -> Result<Self, RuntimeError> {
+        let mut packed = Self::default();
+        for (file, options) in textures {
+            let first = u32::try_from(packed.words.len())
+                .map_err(|_| RuntimeError::Limit("textures of more than 16 GiB".to_owned()))?;
+            packed.first_words.push(first);
+            packed.words.extend(vtex_shaders::pack(file, &options.pack));
+            packed.features |= vtex_shaders::spec_key_with(file, &options.pack).features;
+        }
+        Ok(packed)
+    }
+}

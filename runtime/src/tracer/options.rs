@@ -1,0 +1,88 @@
+//! How a picture is traced.
+
+use crate::RuntimeError;
+
+/// Settings of a [`Tracer`](crate::Tracer).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TraceOptions {
+    /// Scatterings of a path, 0 to 64. 0 shows only what glows.
+    pub max_bounces: u32,
+    /// Seed of all random numbers.
+    pub seed: u32,
+    /// Scale of ray-cone footprints, in (0, 1]. With N samples a pixel, `1 / sqrt(N)` leaves
+    /// filtering to the samples; 1 filters each lookup over the whole pixel, right for a single
+    /// sample. See [`TraceOptions::for_samples`].
+    pub footprint_scale: f32,
+    /// Largest radiance a sample may add by light that scattered twice or more. Lower means fewer
+    /// bright dots and a darker picture; infinity switches the bias off.
+    pub indirect_clamp: f32,
+    /// How area lights are found.
+    pub light_sampling: LightSampling,
+    /// What camera rays that meet nothing leave on the film.
+    pub background: Background,
+}
+
+/// How area lights are found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u32)]
+pub enum LightSampling {
+    /// By aiming at them and by scattering, weighted: little noise.
+    #[default]
+    Mis = 0,
+    /// By scattering alone: the same picture with more noise, a check of the other.
+    ScatterOnly = 1,
+}
+
+/// What camera rays that meet nothing leave on the film.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u32)]
+pub enum Background {
+    /// The sky.
+    #[default]
+    Sky = 0,
+    /// Transparent black; the sky lights the scene all the same.
+    Transparent = 1,
+}
+
+/// Past this many scatterings nothing is left to see.
+const MAX_BOUNCES: u32 = 64;
+
+impl Default for TraceOptions {
+    fn default() -> Self {
+        Self {
+            max_bounces: 8,
+            seed: 0,
+            footprint_scale: 0.25,
+            indirect_clamp: 16.0,
+            light_sampling: LightSampling::Mis,
+            background: Background::Sky,
+        }
+    }
+}
+
+impl TraceOptions {
+    /// The defaults with the footprint scale that suits `samples` a pixel: `1 / sqrt(samples)`,
+    /// at least 1/8 so that minified textures keep their mips' calm.
+    #[must_use]
+    pub fn for_samples(samples: u32) -> Self {
+        Self {
+            footprint_scale: (1.0 / (samples.max(1) as f32).sqrt()).max(0.125),
+            ..Self::default()
+        }
+    }
+
+    pub(crate) fn check(&self) -> Result<(), RuntimeError> {
+        let scale = self.footprint_scale;
+        if self.max_bounces <= MAX_BOUNCES
+            && scale > 0.0
+            && scale <= 1.0
+            && self.indirect_clamp > 0.0
+        {
+            Ok(())
+        } else {
+            Err(RuntimeError::Parameter(format!(
+                "trace options out of range: {self:?}"
+            )))
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! Shader, layouts and bind groups of the tracer.
+
+use vtex_shaders::{BindingSlot, LinkContext};
+use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferBindingType, ComputePipeline, Device};
+
+use crate::RuntimeError;
+use crate::gpu::checked;
+
+use super::upload::SceneBuffers;
+
+const UNIFORM: BufferBindingType = BufferBindingType::Uniform;
+const READ: BufferBindingType = BufferBindingType::Storage { read_only: true };
+const WRITE: BufferBindingType = BufferBindingType::Storage { read_only: false };
+
+/// Bindings of `shaders/wgsl/root/render.wgsl`, group by group, in order.
+const SCENE_GROUP: &[BufferBindingType] = &[UNIFORM, UNIFORM, READ, READ, READ, READ];
+const FILM_GROUP: &[BufferBindingType] = &[WRITE, WRITE];
+const QUERY_GROUP: &[BufferBindingType] = &[READ, WRITE];
+const TEXTURE_GROUP: &[BufferBindingType] = &[READ];
+
+const TEXTURE_SLOT: BindingSlot = BindingSlot {
+    group: 2,
+    binding: 0,
+};
+
+/// The compiled shader and what can be bound to it.
+#[derive(Debug)]
+pub(super) struct Pipelines {
+    pub(super) render: ComputePipeline,
+    pub(super) intersect: ComputePipeline,
+    pub(super) scene_layout: BindGroupLayout,
+    pub(super) film_layout: BindGroupLayout,
+    pub(super) query_layout: BindGroupLayout,
+    pub(super) texture_layout: BindGroupLayout,
+}
+
+/// What `render` reads and writes.
+#[derive(Debug)]
+pub(super) struct Bindings {
+    pub(super) scene: BindGroup,
+    pub(super) film: BindGroup,
+    pub(super) textures: BindGroup,
+}
+
+impl Pipelines {
+    pub(super) fn new(device: &Device, texture_features: u32) -> Result<Self, RuntimeError> {
+        let context = vtex_shaders::scene_context(texture_features, TEXTURE_SLOT);
+        let render_wgsl = linked("root/render", &context)?;
+        let intersect_wgsl = linked("root/intersect", &context)?;
+        checked(device, "path tracer", || {
+            let scene_layout = layout(device, "vtex scene", SCENE_GROUP);
+            let film_layout = layout(device, "vtex film", FILM_GROUP);
+            let query_layout = layout(device, "vtex queries", QUERY_GROUP);
+            let texture_layout = layout(device, "vtex textures", TEXTURE_GROUP);
+            let render = {
+                let groups = [&scene_layout, &film_layout, &texture_layout];
+                pipeline(device, &render_wgsl, "render", &groups)
+            };
+            let intersect = {
+                let groups = [&scene_layout, &query_layout];
+                pipeline(device, &intersect_wgsl, "intersect", &groups)
+            };
+            Self {
+                render,
+                intersect,
+                scene_layout,
+                film_layout,
+                query_layout,
+                texture_layout,
+            }
+        })
+    }
+}
+
+impl Bindings {
+    pub(super) fn new(
+        device: &Device,
+        pipelines: &Pipelines,
+        scene: &SceneBuffers,
+        pass: &Buffer,
+        film_sum: &Buffer,
+        film_rays: &Buffer,
+    ) -> Result<Self, RuntimeError> {
+        checked(device, "path tracer bindings", || Self {
+            scene: group(device, &pipelines.scene_layout, &scene.bindings(pass)),
+            film: group(device, &pipelines.film_layout, &[film_sum, film_rays]),
+            textures: group(device, &pipelines.texture_layout, &[scene.textures()]),
+        })
+    }
+}
+
+/// A layout of whole buffers numbered from 0, for the compute stage.
+fn layout(device: &Device, label: &str, bindings: &[BufferBindingType]) -> BindGroupLayout {
+    let entries: Vec<wgpu::BindGroupLayoutEntry> = (0..)
+        .zip(bindings)
+        .map(|(binding, &ty)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer {
+                ty,
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        })
+        .collect();
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some(label),
+        entries: &entries,
+    })
+}
+
+/// Binds whole buffers, numbered from 0.
+pub(super) fn group(device: &Device, layout: &BindGroupLayout, buffers: &[&Buffer]) -> BindGroup {
+    let entries: Vec<wgpu::BindGroupEntry<'_>> = (0..)
+        .zip(buffers)
+        .map(|(binding, buffer)| wgpu::BindGroupEntry {
+            binding,
+            resource: buffer.as_entire_binding(),
+        })
+        .collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("vtex tracer"),
+        layout,
+        entries: &entries,
+    })
+}
+
+fn pipeline(
+    device: &Device,
+    wgsl: &str,
+    entry_point: &str,
+    groups: &[&BindGroupLayout],
+) -> ComputePipeline {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("vtex tracer"),
+        source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+    });
+    let groups: Vec<Option<&BindGroupLayout>> = groups.iter().copied().map(Some).collect();
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("vtex tracer"),
+        bind_group_layouts: &groups,
+        immediate_size: 0,
+    });
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(entry_point),
+        layout: Some(&layout),
+        module: &module,
+        entry_point: Some(entry_point),
+        compilation_options: wgpu::PipelineCompilationOptions::default(),
+        cache: None,
+    })
+}
+
+fn linked(root: &str, context: &LinkContext) -> Result<String, RuntimeError> {
+    vtex_shaders::link(root, context).map_err(|error| RuntimeError::Shader(error.to_string()))
+}

@@ -1,0 +1,320 @@
+//! A scene as buffers on the device.
+
+use glam::{Vec3, Vec3A};
+use obvhs::triangle::Triangle;
+use wgpu::{Buffer, BufferUsages, Device, Queue};
+
+use super::TraceOptions;
+use super::records::{
+    AttributeRecord, FrameRecord, LightRecord, MaterialRecord, NONE, TriangleRecord,
+};
+use crate::gpu::filled_buffer;
+use crate::load::PackedTextures;
+use crate::mesh::MAX_TRIANGLES;
+use crate::scene::{Instance, MAX_LIGHTS, Material, RectLight, Scene, Surface};
+use crate::{Camera, RuntimeError, bvh};
+
+/// Deepest hierarchy the shader's stack holds; see `BVH_STACK_SIZE` there.
+const MAX_BVH_DEPTH: usize = 32;
+/// GGX turns into a mirror below this, and f32 loses its peak.
+const MIN_GGX_ALPHA: f32 = 0.001;
+
+/// The scene on the device.
+#[derive(Debug)]
+pub(super) struct SceneBuffers {
+    frame: Buffer,
+    frame_record: FrameRecord,
+    nodes: Buffer,
+    triangles: Buffer,
+    attributes: Buffer,
+    materials: Buffer,
+    textures: Buffer,
+    texture_features: u32,
+    source_triangles: Vec<u32>,
+}
+
+/// All triangles in world space with what shading needs, in scene order.
+#[derive(Debug, Default)]
+struct World {
+    triangles: Vec<Triangle>,
+    attributes: Vec<AttributeRecord>,
+}
+
+impl SceneBuffers {
+    pub(super) fn upload(
+        device: &Device,
+        queue: &Queue,
+        scene: &Scene,
+        size: [u32; 2],
+        options: &TraceOptions,
+    ) -> Result<Self, RuntimeError> {
+        let world = World::new(scene)?;
+        let bvh = bvh::build(&world.triangles);
+        let depth = bvh::depth(&bvh);
+        if depth > MAX_BVH_DEPTH {
+            return Err(RuntimeError::Limit(format!(
+                "BVH of {depth} levels: is the mesh degenerate?"
+            )));
+        }
+        let order = &bvh.primitive_indices;
+        let triangles: Vec<TriangleRecord> = order
+            .iter()
+            .map(|&i| TriangleRecord::from(&world.triangles[i as usize]))
+            .collect();
+        let attributes: Vec<AttributeRecord> = order
+            .iter()
+            .map(|&i| world.attributes[i as usize])
+            .collect();
+        let packed = PackedTextures::new(&scene.textures)?;
+        let materials = material_records(scene, &packed.first_words);
+        let frame_record = frame_record(scene, size, options, &triangles)?;
+        let storage = |label: &str, bytes: &[u8]| {
+            filled_buffer(device, queue, label, bytes, BufferUsages::STORAGE)
+        };
+        Ok(Self {
+            frame: filled_buffer(
+                device,
+                queue,
+                "vtex frame",
+                bytemuck::bytes_of(&frame_record),
+                BufferUsages::UNIFORM,
+            )?,
+            frame_record,
+            nodes: storage("vtex BVH nodes", bytemuck::cast_slice(&bvh.nodes))?,
+            triangles: storage("vtex triangles", bytemuck::cast_slice(&triangles))?,
+            attributes: storage("vtex attributes", bytemuck::cast_slice(&attributes))?,
+            materials: storage("vtex materials", bytemuck::cast_slice(&materials))?,
+            textures: storage("vtex textures", bytemuck::cast_slice(&packed.words))?,
+            texture_features: packed.features,
+            source_triangles: bvh.primitive_indices,
+        })
+    }
+
+    /// In the order of group 0 of `root/render.wgsl`.
+    pub(super) fn bindings<'a>(&'a self, pass: &'a Buffer) -> [&'a Buffer; 6] {
+        [
+            &self.frame,
+            pass,
+            &self.nodes,
+            &self.triangles,
+            &self.attributes,
+            &self.materials,
+        ]
+    }
+
+    pub(super) fn textures(&self) -> &Buffer {
+        &self.textures
+    }
+
+    /// Union of the textures' features: what the evaluator has to contain.
+    pub(super) fn texture_features(&self) -> u32 {
+        self.texture_features
+    }
+
+    pub(super) fn triangle_count(&self) -> u32 {
+        self.frame_record.triangle_count
+    }
+
+    /// Scene order of a triangle in BVH order.
+    pub(super) fn source_triangle(&self, index: u32) -> u32 {
+        self.source_triangles
+            .get(index as usize)
+            .copied()
+            .unwrap_or(NONE)
+    }
+
+    pub(super) fn set_camera(
+        &mut self,
+        queue: &Queue,
+        camera: &Camera,
+    ) -> Result<(), RuntimeError> {
+        set_camera(&mut self.frame_record, camera)?;
+        queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&self.frame_record));
+        Ok(())
+    }
+}
+
+impl World {
+    fn new(scene: &Scene) -> Result<Self, RuntimeError> {
+        let mut world = Self::default();
+        let placed: usize = scene
+            .instances
+            .iter()
+            .map(|instance| scene.meshes[instance.mesh].triangles.len())
+            .sum();
+        if placed > MAX_TRIANGLES {
+            return Err(RuntimeError::Limit(format!(
+                "{placed} triangles; a scene holds at most {MAX_TRIANGLES}"
+            )));
+        }
+        for instance in &scene.instances {
+            world.place(scene, instance);
+        }
+        for (light, material) in scene.lights.iter().zip(scene.materials.len()..) {
+            world.place_light(light, index_u32(material));
+        }
+        Ok(world)
+    }
+
+    fn place(&mut self, scene: &Scene, instance: &Instance) {
+        let mesh = &scene.meshes[instance.mesh];
+        let to_world = instance.world_from_object;
+        let normal_to_world = to_world.matrix3.inverse().transpose();
+        for indices in &mesh.triangles {
+            let corners = indices.map(|i| i as usize);
+            let triangle = bvh::triangle(
+                corners.map(|i| to_world.transform_point3a(mesh.positions[i].into())),
+            );
+            let normals = corners.map(|i| {
+                let normal = normal_to_world * Vec3A::from(mesh.normals[i]);
+                normal.normalize_or_zero()
+            });
+            let uvs = corners.map(|i| mesh.uvs[i]);
+            self.triangles.push(triangle);
+            self.attributes.push(AttributeRecord {
+                normal_u: [0, 1, 2].map(|k| normals[k].extend(uvs[k].x).to_array()),
+                v: uvs.map(|uv| uv.y),
+                material: index_u32(instance.material),
+            });
+        }
+    }
+
+    /// Lights are met by chance too, so they are geometry: two triangles, counter-clockwise seen
+    /// from where they shine.
+    fn place_light(&mut self, light: &RectLight, material: u32) {
+        let normal = light.edge_u.cross(light.edge_v).normalize_or_zero();
+        let at = |u: f32, v: f32| Vec3A::from(light.corner + light.edge_u * u + light.edge_v * v);
+        for corners in [
+            [at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0)],
+            [at(0.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)],
+        ] {
+            self.triangles.push(bvh::triangle(corners));
+            self.attributes.push(AttributeRecord {
+                normal_u: [normal.extend(0.0).to_array(); 3],
+                v: [0.0; 3],
+                material,
+            });
+        }
+    }
+}
+
+impl From<&Triangle> for TriangleRecord {
+    fn from(triangle: &Triangle) -> Self {
+        let word = |v: Vec3A| v.extend(0.0).to_array();
+        Self {
+            v0: word(triangle.v0),
+            edge1: word(triangle.v0 - triangle.v1),
+            edge2: word(triangle.v2 - triangle.v0),
+        }
+    }
+}
+
+/// The scene's materials, then one for each light.
+fn material_records(scene: &Scene, texture_words: &[u32]) -> Vec<MaterialRecord> {
+    let surfaces = scene
+        .materials
+        .iter()
+        .map(|material| material_record(material, texture_words));
+    let lights = (0..)
+        .zip(&scene.lights)
+        .map(|(index, light)| MaterialRecord {
+            emission: color(light.radiance),
+            light: index,
+            ..material_record(&Material::default(), texture_words)
+        });
+    surfaces.chain(lights).collect()
+}
+
+fn material_record(material: &Material, texture_words: &[u32]) -> MaterialRecord {
+    let (metallic, roughness) = material.surface.parameters();
+    MaterialRecord {
+        base_color: color(material.base_color),
+        emission: color(material.emission),
+        backing: match material.backing {
+            Some([r, g, b]) => [r, g, b, 1.0],
+            None => [0.0; 4],
+        },
+        metallic,
+        ggx_alpha: (roughness * roughness).max(MIN_GGX_ALPHA),
+        surface: match material.surface {
+            Surface::Diffuse => 0,
+            Surface::Glossy { .. } => 1,
+        },
+        texture_word: material.texture.map_or(NONE, |index| texture_words[index]),
+        light: NONE,
+        reserved: [0; 3],
+    }
+}
+
+fn frame_record(
+    scene: &Scene,
+    film_size: [u32; 2],
+    options: &TraceOptions,
+    triangles: &[TriangleRecord],
+) -> Result<FrameRecord, RuntimeError> {
+    let mut lights = [bytemuck::Zeroable::zeroed(); MAX_LIGHTS];
+    for (record, light) in lights.iter_mut().zip(&scene.lights) {
+        *record = light_record(light);
+    }
+    let mut frame = FrameRecord {
+        camera_position: [0.0; 4],
+        camera_right: [0.0; 4],
+        camera_up: [0.0; 4],
+        camera_forward: [0.0; 4],
+        sky_zenith: color(scene.sky.zenith),
+        sky_horizon: color(scene.sky.horizon),
+        sky_ground: color(scene.sky.ground),
+        film_size,
+        light_count: index_u32(scene.lights.len()),
+        triangle_count: index_u32(triangles.len()),
+        seed: options.seed,
+        max_bounces: options.max_bounces,
+        light_sampling: options.light_sampling as u32,
+        transparent_background: options.background as u32,
+        camera_slope: 0.0,
+        footprint_scale: options.footprint_scale,
+        // The shader compares with it; infinity is not a WGSL value.
+        indirect_clamp: options.indirect_clamp.min(f32::MAX),
+        reserved: 0.0,
+        lights,
+    };
+    set_camera(&mut frame, &scene.camera)?;
+    Ok(frame)
+}
+
+fn light_record(light: &RectLight) -> LightRecord {
+    let cross = light.edge_u.cross(light.edge_v);
+    LightRecord {
+        corner: vector(light.corner),
+        edge_u: vector(light.edge_u),
+        edge_v: vector(light.edge_v),
+        normal_area: cross.normalize_or_zero().extend(cross.length()).to_array(),
+        radiance: color(light.radiance),
+    }
+}
+
+fn set_camera(frame: &mut FrameRecord, camera: &Camera) -> Result<(), RuntimeError> {
+    let [right, up, forward] = camera.axes()?;
+    let [width, height] = frame.film_size.map(|side| side as f32);
+    let half_height = (0.5 * camera.fov_y_rad).tan();
+    frame.camera_position = vector(camera.position);
+    frame.camera_right = vector(right * (half_height * width / height));
+    frame.camera_up = vector(up * half_height);
+    frame.camera_forward = vector(forward);
+    // A pixel is 2 half_height / height wide at distance 1; the cone grows by 2 t slope.
+    frame.camera_slope = frame.footprint_scale * half_height / height;
+    Ok(())
+}
+
+fn vector(v: Vec3) -> [f32; 4] {
+    v.extend(0.0).to_array()
+}
+
+fn color([r, g, b]: [f32; 3]) -> [f32; 4] {
+    [r, g, b, 0.0]
+}
+
+/// Counts here are bounded by [`MAX_TRIANGLES`] and by memory.
+fn index_u32(index: usize) -> u32 {
+    u32::try_from(index).unwrap_or(NONE)
+}

@@ -1,0 +1,104 @@
+// Records that the ray tracer's host code fills: runtime/src/tracer/records.rs holds the same
+// fields, and a test compares names, offsets and sizes through naga.
+
+const TRACE_NONE: u32 = 0xffffffffu;
+// As many lights as fit a small uniform block; the host refuses more.
+const TRACE_MAX_LIGHTS: u32 = 16u;
+
+const SURFACE_DIFFUSE: u32 = 0u;
+const SURFACE_GLOSSY: u32 = 1u;
+
+// Lights are found by chance and by aiming at them, weighted (multiple importance sampling).
+const LIGHT_SAMPLING_MIS: u32 = 0u;
+// Lights are found by chance alone: slow and noisy, the check of the other.
+const LIGHT_SAMPLING_SCATTER: u32 = 1u;
+
+// The part of a triangle that intersection reads, 48 bytes. edge1 = v0 - v1, edge2 = v2 - v0.
+struct TriangleRecord {
+    v0: vec4f,
+    edge1: vec4f,
+    edge2: vec4f,
+}
+
+// The part that shading reads: three normals with u in w, then the three v and the material.
+struct AttributeRecord {
+    normal0_u: vec4f,
+    normal1_u: vec4f,
+    normal2_u: vec4f,
+    v_material: vec4f,
+}
+
+struct MaterialRecord {
+    base_color: vec4f,
+    emission: vec4f,
+    // Under the texture's transparent parts; w = 0 for none, which lets rays through.
+    backing: vec4f,
+    metallic: f32,
+    // GGX's width parameter, the square of perceptual roughness.
+    ggx_alpha: f32,
+    surface: u32,
+    // First word of the vector texture in vtex_words, or TRACE_NONE.
+    texture_word: u32,
+    // Index of the area light this surface is, or TRACE_NONE.
+    light: u32,
+    reserved0: u32,
+    reserved1: u32,
+    reserved2: u32,
+}
+
+struct LightRecord {
+    corner: vec4f,
+    edge_u: vec4f,
+    edge_v: vec4f,
+    // Unit normal of the shining side; w is the area.
+    normal_area: vec4f,
+    radiance: vec4f,
+}
+
+// What stays the same over a picture.
+struct FrameRecord {
+    camera_position: vec4f,
+    // Half extents of the film at distance 1.
+    camera_right: vec4f,
+    camera_up: vec4f,
+    camera_forward: vec4f,
+    sky_zenith: vec4f,
+    sky_horizon: vec4f,
+    sky_ground: vec4f,
+    film_width: u32,
+    film_height: u32,
+    light_count: u32,
+    triangle_count: u32,
+    seed: u32,
+    max_bounces: u32,
+    light_sampling: u32,
+    // 1: a camera ray that meets nothing leaves the film transparent.
+    transparent_background: u32,
+    // Tangent of half the angle between neighbouring camera rays, scaled by footprint_scale.
+    camera_slope: f32,
+    footprint_scale: f32,
+    indirect_clamp: f32,
+    reserved: f32,
+    lights: array<LightRecord, 16>,
+}
+
+// Which part of the work one dispatch does.
+struct PassRecord {
+    row_first: u32,
+    row_count: u32,
+    sample_first: u32,
+    sample_count: u32,
+}
+
+// A ray asked for by the host, and the answer.
+struct RayRecord {
+    origin_t_max: vec4f,
+    direction: vec4f,
+}
+
+struct HitRecord {
+    t: f32,
+    triangle: u32,
+    reserved0: u32,
+    reserved1: u32,
+}
