@@ -4,51 +4,26 @@
 //! runs every trial once, and a ratio is the median of the ratios within the rounds, where both
 //! sides saw the same weather.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use anyhow::Result;
 
 /// One thing to time.
 pub(crate) struct Trial<'a> {
-    name: String,
     items: f64,
     run: Box<dyn FnMut() -> Result<Duration> + 'a>,
 }
 
 impl<'a> Trial<'a> {
     /// A trial that times itself and does `items` lookups, rays or the like a run.
-    pub(crate) fn timed(
-        name: impl Into<String>,
-        items: usize,
-        run: impl FnMut() -> Result<Duration> + 'a,
-    ) -> Self {
-        let run = Box::new(run);
-        Self {
-            name: name.into(),
-            items: count(items),
-            run,
-        }
-    }
-
-    /// A trial on the wall clock.
-    pub(crate) fn wall(
-        name: impl Into<String>,
-        items: usize,
-        mut run: impl FnMut() -> Result<()> + 'a,
-    ) -> Self {
-        Self::timed(name, items, move || {
-            let start = Instant::now();
-            run()?;
-            Ok(start.elapsed())
-        })
+    pub(crate) fn timed(items: usize, run: impl FnMut() -> Result<Duration> + 'a) -> Self {
+        Self { items: items as f64, run: Box::new(run) }
     }
 }
 
 /// Seconds of one trial, one value a round; timings of one call share their rounds.
 #[derive(Clone, Debug)]
 pub(crate) struct Timing {
-    /// As given to the trial.
-    pub(crate) name: String,
     items: f64,
     seconds: Vec<f64>,
 }
@@ -111,18 +86,7 @@ pub(crate) fn interleave(mut trials: Vec<Trial<'_>>, rounds: usize) -> Result<Ve
         }
     }
     let timings = trials.into_iter().zip(seconds);
-    Ok(timings
-        .map(|(Trial { name, items, .. }, seconds)| Timing {
-            name,
-            items,
-            seconds,
-        })
-        .collect())
-}
-
-/// Counts here stay below 2^32.
-fn count(items: usize) -> f64 {
-    u32::try_from(items).map_or(f64::from(u32::MAX), f64::from)
+    Ok(timings.map(|(trial, seconds)| Timing { items: trial.items, seconds }).collect())
 }
 
 #[cfg(test)]
@@ -146,22 +110,11 @@ mod tests {
 
     #[test]
     fn ratios_are_taken_within_rounds() {
-        let timing = |name: &str, seconds: [f64; 3]| Timing {
-            name: name.to_owned(),
-            items: 10.0,
-            seconds: seconds.to_vec(),
-        };
+        let timing = |seconds: [f64; 3]| Timing { items: 10.0, seconds: seconds.to_vec() };
         // The machine is ten times slower in the second round; the ratio does not see it.
-        let fast = timing("fast", [1.0, 10.0, 1.0]);
-        let slow = timing("slow", [2.0, 20.0, 2.0]);
-        assert_eq!(
-            fast.speed_against(&slow),
-            Spread {
-                median: 2.0,
-                min: 2.0,
-                max: 2.0
-            }
-        );
+        let fast = timing([1.0, 10.0, 1.0]);
+        let slow = timing([2.0, 20.0, 2.0]);
+        assert_eq!(fast.speed_against(&slow), Spread { median: 2.0, min: 2.0, max: 2.0 });
     }
 
     #[test]
@@ -169,9 +122,9 @@ mod tests {
         let log = std::cell::RefCell::new(String::new());
         let trial = |name: &'static str| {
             let log = &log;
-            Trial::wall(name, 1, move || {
+            Trial::timed(1, move || {
                 log.borrow_mut().push_str(name);
-                Ok(())
+                Ok(Duration::ZERO)
             })
         };
         let timings = interleave(vec![trial("a"), trial("b")], 2).unwrap();

@@ -4,11 +4,10 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, Result};
 use serde_json::{Value, json};
-use vtex_shaders::layout::BatchQuery;
 use wgpu::util::DeviceExt as _;
 
-/// Lookups a workgroup, as in `wgsl/root.wgsl`.
-const WORKGROUP: usize = 64;
+use crate::queries::QuerySet;
+
 /// A 32-bit copy destination that mapping wants: two timestamps of 8 bytes.
 const STAMPS_BYTES: u64 = 16;
 
@@ -37,12 +36,12 @@ pub(crate) struct Kernel {
     resources: wgpu::BindGroup,
 }
 
-/// Queries on the device and room for their results.
+/// What makes queries on the device, and room for their results.
 #[derive(Debug)]
 pub(crate) struct Batch {
     queries: wgpu::Buffer,
     results: wgpu::Buffer,
-    count: usize,
+    workgroups: [u32; 3],
 }
 
 impl Device {
@@ -134,19 +133,19 @@ impl Device {
         }
     }
 
-    /// Uploads queries.
-    pub(crate) fn batch(&self, queries: &[BatchQuery]) -> Batch {
+    /// Room for the results of `set`.
+    pub(crate) fn batch(&self, set: &QuerySet) -> Batch {
         let results = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
-            size: queries.len() as u64 * 16,
+            size: set.len() as u64 * 16,
             usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         });
-        let queries_bytes = bytemuck::cast_slice(queries);
+        let record = bytemuck::bytes_of(&set.record);
         Batch {
-            queries: self.buffer(queries_bytes, wgpu::BufferUsages::STORAGE),
+            queries: self.buffer(record, wgpu::BufferUsages::UNIFORM),
             results,
-            count: queries.len(),
+            workgroups: set.workgroups(),
         }
     }
 
@@ -175,8 +174,8 @@ impl Device {
         pass.set_pipeline(&kernel.pipeline);
         pass.set_bind_group(0, &kernel.resources, &[]);
         pass.set_bind_group(1, &buffers, &[]);
-        let groups = u32::try_from(batch.count.div_ceil(WORKGROUP)).context("batch too large")?;
-        pass.dispatch_workgroups(groups, 1, 1);
+        let [x, y, z] = batch.workgroups;
+        pass.dispatch_workgroups(x, y, z);
         drop(pass);
         if let Some(stamps) = &self.stamps {
             stamps.resolve(&mut encoder);

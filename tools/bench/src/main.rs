@@ -1,24 +1,34 @@
 //! `vtex-bench`: how long bakes, lookups and rays take on this machine, beside their rivals.
 
 mod clock;
+mod count;
 mod device;
+mod lookups;
 mod machine;
 mod queries;
 mod raster;
+mod rays;
 mod report;
 mod rivals;
 mod sfg22;
+mod stages;
+mod subject;
 mod table;
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use anyhow::Result;
 use clap::{Parser, ValueEnum};
+use vtex_baker::Resources;
 
 use crate::device::Device;
+use crate::lookups::{count_table, cpu_tables, gpu_tables};
 use crate::machine::Machine;
 use crate::report::Report;
 use crate::rivals::Effort;
+use crate::stages::stages_table;
+use crate::subject::Subject;
 
 /// Times bake stages, lookups a second per filter mode and rays a second, and prints the machine
 /// and the adapter.
@@ -71,14 +81,47 @@ fn main() -> Result<()> {
         gpu_lookups: usize::from(args.windows) << 18,
         cpu_lookups: 1 << 18,
     };
-    let device = (wanted(Part::Gpu) || wanted(Part::Rays))
-        .then(Device::open)
-        .transpose()?;
-    let mut report = Report::begin(Machine::detect(), device.as_ref())?;
+    let paths = subject::find(&args.files)?;
+    let resources = resources();
+    let machine = Machine::detect();
+    let cores = machine.cores();
+    let device = (wanted(Part::Gpu) || wanted(Part::Rays)).then(Device::open).transpose()?;
+    let mut report = Report::begin(machine, device.as_ref(), resources.fonts.len())?;
+
+    if wanted(Part::Bake) {
+        report.add(stages_table(&paths, &resources, 1, effort.rounds)?)?;
+        if cores > 1 {
+            report.add(stages_table(&paths, &resources, cores, effort.rounds)?)?;
+        }
+    }
+    let subjects: Vec<Subject> = match wanted(Part::Cpu) || wanted(Part::Gpu) || wanted(Part::Rays) {
+        true => paths.iter().map(|path| Subject::bake(path, &resources)).collect::<Result<_>>()?,
+        false => Vec::new(),
+    };
+    if wanted(Part::Cpu) {
+        report.add(count_table(&subjects, effort))?;
+        report.add_all(cpu_tables(&subjects, 1, effort)?)?;
+        if cores > 1 {
+            report.add_all(cpu_tables(&subjects, cores, effort)?)?;
+        }
+    }
     if let Some(device) = device.as_ref().filter(|_| wanted(Part::Gpu)) {
+        rivals::check_queries(device)?;
+        report.add_all(gpu_tables(device, &subjects, effort)?)?;
         report.add(rivals::sfg22_table(device, effort)?)?;
         report.add(rivals::minified_table(device, effort)?)?;
         report.add(rivals::fetch_table(device, effort)?)?;
     }
+    if let Some(device) = device.as_ref().filter(|_| wanted(Part::Rays)) {
+        let subjects: Vec<(PathBuf, Subject)> = paths.into_iter().zip(subjects).collect();
+        report.add(rays::rays_table(device, &subjects, &resources, effort)?)?;
+    }
     report.finish(args.markdown.as_deref(), args.json.as_deref())
+}
+
+/// The system's fonts, for drawings with text.
+fn resources() -> Resources {
+    let mut fonts = usvg::fontdb::Database::new();
+    fonts.load_system_fonts();
+    Resources { fonts: Arc::new(fonts) }
 }

@@ -25,7 +25,7 @@ pub(crate) struct Report {
 
 impl Report {
     /// Prints the machine and the adapter.
-    pub(crate) fn begin(machine: Machine, device: Option<&Device>) -> Result<Self> {
+    pub(crate) fn begin(machine: Machine, device: Option<&Device>, fonts: usize) -> Result<Self> {
         let mut report = Self {
             adapter: device.map(Device::to_json),
             loads: machine::load_average().into_iter().collect(),
@@ -48,6 +48,11 @@ impl Report {
         self.print(&format!("\n{}", table.to_markdown()))?;
         self.tables.push(table);
         Ok(())
+    }
+
+    /// As [`Report::add`].
+    pub(crate) fn add_all(&mut self, tables: Vec<Table>) -> Result<()> {
+        tables.into_iter().try_for_each(|table| self.add(table))
     }
 
     /// Prints how busy the machine was and writes what was asked for.

@@ -1,6 +1,6 @@
 //! Ways to look up a texture that do not depend on a file: what the design was weighed against.
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 
 use crate::clock::{Trial, interleave};
 use crate::device::{Device, Kernel};
@@ -127,13 +127,11 @@ fn lookups_table(
         .map(|(name, _)| vec![Cell::Text(name.clone())])
         .collect();
     for set in sets {
-        let batch = device.batch(&set.queries);
-        let trial = |(name, kernel): &(String, Kernel)| {
-            Trial::timed(name.clone(), set.queries.len(), || {
-                device.time(kernel, &batch)
-            })
-        };
-        let timings = interleave(kernels.iter().map(trial).collect(), effort.rounds)?;
+        let batch = device.batch(set);
+        let trials = kernels
+            .iter()
+            .map(|(_, kernel)| Trial::timed(set.len(), || device.time(kernel, &batch)));
+        let timings = interleave(trials.collect(), effort.rounds)?;
         for (index, (row, timing)) in rows.iter_mut().zip(&timings).enumerate() {
             let ratio = (index > 0).then(|| timing.speed_against(&timings[0]));
             row.push(Cell::Measured {
@@ -150,7 +148,7 @@ fn lookups_table(
 fn disagreement(device: &Device, kernels: [&Kernel; 2], sets: &[QuerySet]) -> Result<f32> {
     let mut worst = 0.0_f32;
     for set in sets {
-        let batch = device.batch(&set.queries);
+        let batch = device.batch(set);
         let mut answers = Vec::with_capacity(2);
         for kernel in kernels {
             device.time(kernel, &batch)?;
@@ -160,6 +158,26 @@ fn disagreement(device: &Device, kernels: [&Kernel; 2], sets: &[QuerySet]) -> Re
         worst = pairs.fold(worst, |worst, (a, b)| worst.max((a - b).abs()));
     }
     Ok(worst)
+}
+
+/// Whether kernels ask what the CPU asks: same points in the same order.
+///
+/// # Errors
+/// When they do not; every figure would compare different work.
+pub(crate) fn check_queries(device: &Device) -> Result<()> {
+    let kernel = nothing_kernel(device);
+    let screen = Screen::new([3.0, 2.0]);
+    for set in [screen.close([0.3, 0.2], 1 << 18), screen.scattered(1 << 18)] {
+        let batch = device.batch(&set);
+        device.time(&kernel, &batch)?;
+        for (query, result) in set.queries().iter().zip(device.results(&batch)?) {
+            let [u, v] = query.uv;
+            let expect = [u, v, query.footprint[0], query.footprint[3]];
+            let same = expect.iter().zip(result).all(|(cpu, gpu)| (cpu - gpu).abs() < 1e-6);
+            ensure!(same, "{}: the GPU asks at {result:?}, the CPU at {expect:?}", set.name);
+        }
+    }
+    Ok(())
 }
 
 fn nothing_kernel(device: &Device) -> Kernel {

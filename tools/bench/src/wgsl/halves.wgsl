@@ -27,6 +27,11 @@ fn bench_sample(uv: vec2f, footprint: vec4f) -> vec4f {
     let width_texels = max(length(footprint.xy * size), length(footprint.zw * size));
     let lod = clamp(log2(width_texels), 0.0, f32(words[2] - 1u));
     let fine = u32(lod);
-    let coarse = min(fine + 1u, words[2] - 1u);
-    return mix(halves_level(fine, uv), halves_level(coarse, uv), fract(lod));
+    let t = fract(lod);
+    let value = halves_level(fine, uv);
+    if t <= 0.0 {
+        return value;
+    }
+    // The last level is whole, so there is one behind this.
+    return mix(value, halves_level(fine + 1u, uv), t);
 }

@@ -1,7 +1,7 @@
-// Reads the query and writes a result: what every other kernel pays as well.
+// Makes the query and writes a result: what every other kernel pays as well.
 
-@group(0) @binding(0) var<uniform> tint: vec4f;
+@group(0) @binding(0) var<uniform> one: vec4f;
 
 fn bench_sample(uv: vec2f, footprint: vec4f) -> vec4f {
-    return tint * vec4f(uv, footprint.xw);
+    return one * vec4f(uv, footprint.xw);
 }
