@@ -5,6 +5,8 @@ use std::sync::Arc;
 use usvg::fontdb;
 use vtex_format::AddressMode;
 
+use crate::BakeError;
+
 /// Which coverage kinds a bake may use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
@@ -68,6 +70,62 @@ impl Default for BakeConfig {
     }
 }
 
+impl BakeConfig {
+    /// Checks every option against its range.
+    ///
+    /// # Errors
+    /// [`BakeError::Parameter`] naming the first option out of range.
+    pub fn check(&self) -> Result<(), BakeError> {
+        let unit =
+            |c: Option<[f32; 4]>| c.is_none_or(|c| c.iter().all(|v| (0.0..=1.0).contains(v)));
+        let half_range = self.distance_range_texels / 2.0;
+        let outline_fits = |w: f32| w > 0.0 && w < half_range;
+        let [a, b, c, d, _, _] = self.texture_matrix;
+        let rules = [
+            (
+                (1..=8192).contains(&self.mip0_size),
+                "mip 0 size must lie in 1..=8192 texels",
+            ),
+            (
+                (16..=8192).contains(&self.msdf_size),
+                "MSDF size must lie in 16..=8192 texels",
+            ),
+            (
+                (1.0..=64.0).contains(&self.distance_range_texels),
+                "distance range must lie in 1..=64 texels",
+            ),
+            (
+                (1.0..=4096.0).contains(&self.max_zoom),
+                "maximum zoom must lie in 1..=4096",
+            ),
+            (
+                self.smoothing > 0.0 && self.smoothing <= 0.5,
+                "smoothing must be positive and at most 0.5",
+            ),
+            (
+                self.outline_texels.is_none_or(outline_fits),
+                "outline width must be positive and below half the distance range",
+            ),
+            (
+                unit(self.fill_color),
+                "fill colour channels must lie in 0..=1",
+            ),
+            (
+                unit(self.stroke_color),
+                "stroke colour channels must lie in 0..=1",
+            ),
+            (
+                self.texture_matrix.iter().all(|v| v.is_finite()) && a * d - b * c != 0.0,
+                "texture matrix must be finite and invertible",
+            ),
+        ];
+        match rules.iter().find(|(holds, _)| !holds) {
+            Some((_, rule)) => Err(BakeError::Parameter((*rule).to_owned())),
+            None => Ok(()),
+        }
+    }
+}
+
 /// What a bake may use besides the SVG; the baker itself opens no file.
 #[derive(Clone, Debug, Default)]
 pub struct Resources {
@@ -82,6 +140,8 @@ pub enum Stage {
     Parse,
     /// Tree to shapes and patches.
     Draw,
+    /// Raster mips.
+    Mips,
     /// Outlines made simple.
     Prepare,
     /// Shapes into layers.
@@ -90,8 +150,48 @@ pub enum Stage {
     Cells,
     /// MSDF tiles.
     Msdf,
-    /// Raster mips.
-    Mips,
     /// Shader and records.
     Encode,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn options_out_of_range_are_named() {
+        assert!(BakeConfig::default().check().is_ok());
+        let bad = [
+            BakeConfig {
+                mip0_size: 0,
+                ..BakeConfig::default()
+            },
+            BakeConfig {
+                max_zoom: f32::NAN,
+                ..BakeConfig::default()
+            },
+            BakeConfig {
+                smoothing: 0.0,
+                ..BakeConfig::default()
+            },
+            BakeConfig {
+                outline_texels: Some(2.0),
+                ..BakeConfig::default()
+            },
+            BakeConfig {
+                fill_color: Some([2.0, 0.0, 0.0, 1.0]),
+                ..BakeConfig::default()
+            },
+            BakeConfig {
+                texture_matrix: [1.0, 2.0, 2.0, 4.0, 0.0, 0.0],
+                ..BakeConfig::default()
+            },
+        ];
+        for config in bad {
+            assert!(
+                matches!(config.check(), Err(BakeError::Parameter(_))),
+                "{config:?}"
+            );
+        }
+    }
 }

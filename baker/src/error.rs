@@ -1,6 +1,6 @@
 //! Why a bake failed and who must act.
 
-/// Why an SVG could not be baked.
+/// Why an SVG could not be baked. The text is one line for people.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum BakeError {
@@ -13,4 +13,7 @@ pub enum BakeError {
     /// A budget would be exceeded.
     #[error("limit exceeded: {0}")]
     Limit(String),
+    /// The shader of the file could not be made: a fault of this program.
+    #[error("shader of the file: {0}")]
+    Shader(String),
 }

@@ -1,8 +1,126 @@
-//! SVG in, [`VtexFile`](vtex_format::VtexFile) out: pure, deterministic at any thread count.
+//! SVG in, [`VtexFile`] out: pure, deterministic at any thread count.
+//!
+//! ```
+//! use vtex_baker::{BakeConfig, Resources, bake};
+//!
+//! let svg = br##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 10">
+//!   <rect width="20" height="10" fill="#084"/><circle cx="10" cy="5" r="4" fill="#fff"/></svg>"##;
+//! let file = bake(svg, &BakeConfig::default(), &Resources::default())?;
+//! assert_eq!(file.shapes.len(), 2);
+//! let bytes = file.to_bytes().expect("a baked file keeps the format's rules");
+//! # let _ = bytes;
+//! # Ok::<(), vtex_baker::BakeError>(())
+//! ```
+//!
+//! The baker opens no file and starts no process. A parse of hostile SVG cannot be cancelled from
+//! inside: who bakes input that nobody vouches for runs the bake in a process with limits of time
+//! and memory.
 
+mod cells;
+mod classify;
+mod color;
 mod config;
 mod drawing;
+mod encode;
+#[cfg(test)]
+mod encode_tests;
 mod error;
+mod geometry;
+mod grid;
+mod mips;
+mod msdf;
+mod paint_table;
+mod patch;
+mod placed;
+mod prepare;
+mod raster;
+mod resample;
+mod stroke;
+mod subset;
+mod svg;
+#[cfg(test)]
+mod testing;
+mod warning;
+
+use drawing::{Drawing, Item};
+use patch::PatchSettings;
+use svg::WalkOptions;
+use vtex_format::{VtexFile, WarningCode};
+use warning::Warnings;
 
 pub use config::{BakeConfig, Mode, Resources, Stage};
 pub use error::BakeError;
+
+#[cfg(test)]
+mod picture_tests;
+
+/// Bakes `svg`, the bytes of an SVG or gzipped SVG. What was approximated or left out stands in
+/// the warnings of the file's provenance.
+///
+/// # Errors
+/// [`BakeError::Svg`] for bytes that are no SVG with an area, [`BakeError::Parameter`] for an
+/// option out of its range, [`BakeError::Limit`] for a drawing beyond a budget.
+pub fn bake(svg: &[u8], config: &BakeConfig, resources: &Resources) -> Result<VtexFile, BakeError> {
+    bake_observed(svg, config, resources, &|_| ())
+}
+
+/// As [`bake`]; `observer` is told each [`Stage`] as it begins, for progress and timing.
+///
+/// # Errors
+/// As [`bake`].
+pub fn bake_observed(
+    svg: &[u8],
+    config: &BakeConfig,
+    resources: &Resources,
+    observer: &(dyn Fn(Stage) + Sync),
+) -> Result<VtexFile, BakeError> {
+    config.check()?;
+    let drawing = draw(svg, config, resources, observer)?;
+    observer(Stage::Mips);
+    let mips = raster::canvas_mips(&drawing.items, drawing.canvas_size, config.mip0_size);
+    let source_hash = *blake3::hash(svg).as_bytes();
+    encode::assemble(drawing, Some(mips), config, source_hash, observer)
+}
+
+/// The front half: SVG bytes to a drawing.
+fn draw(
+    svg: &[u8],
+    config: &BakeConfig,
+    resources: &Resources,
+    observer: &(dyn Fn(Stage) + Sync),
+) -> Result<Drawing, BakeError> {
+    let warnings = Warnings::default();
+    observer(Stage::Parse);
+    let tree = svg::parse(svg, resources, &warnings)?;
+
+    observer(Stage::Draw);
+    let options = WalkOptions {
+        max_zoom: f64::from(config.max_zoom),
+        fill_color: config.fill_color,
+        stroke_color: config.stroke_color,
+    };
+    let plan = svg::plan(&tree, options, &warnings);
+    let settings = PatchSettings {
+        canvas_size: plan.canvas_size,
+        mip0_size: config.mip0_size,
+        max_zoom: f64::from(config.max_zoom),
+    };
+    let mut items = patch::resolve(plan, settings, &warnings);
+    if items.is_empty() {
+        warnings.push(
+            WarningCode::EmptyDrawing,
+            "svg",
+            "",
+            "the drawing shows nothing",
+        );
+    }
+    if config.mode == Mode::Raster {
+        let patch = patch::whole_canvas(&items, settings, &warnings);
+        items = patch.map(Item::Patch).into_iter().collect();
+    }
+    Ok(Drawing {
+        canvas_size: settings.canvas_size,
+        items,
+        warnings: warnings.into_list(),
+    })
+}

@@ -1,8 +1,9 @@
 //! The one seam to bincode: fixed-width little-endian integers, every byte consumed, and only the
 //! encoding that we would write ourselves.
 //!
-//! bincode's limit bounds neither zero-sized elements nor recursion, so no type here has either.
-//! Borrowed decoding checks a string's length against the slice before it allocates.
+//! bincode believes a string's length and allocates it unless a limit, which is a constant of the
+//! type, forbids; so the limit is the power of 16 above the input. It bounds neither zero-sized
+//! elements nor recursion: no type here has either.
 
 use bincode::config::{Configuration, Fixint, LittleEndian};
 use serde::{Serialize, de::DeserializeOwned};
@@ -12,8 +13,14 @@ const CONFIG: Configuration<LittleEndian, Fixint> =
 
 /// Decodes a whole slice; the error is a sentence.
 pub(crate) fn decode<T: Serialize + DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
-    let (value, used) = bincode::serde::borrow_decode_from_slice::<T, _>(bytes, CONFIG)
-        .map_err(|error| error.to_string())?;
+    let (value, used) = match bytes.len() {
+        0..=0x1000 => decode_within::<T, 0x1000>(bytes)?,
+        0x1001..=0x1_0000 => decode_within::<T, 0x1_0000>(bytes)?,
+        0x1_0001..=0x10_0000 => decode_within::<T, 0x10_0000>(bytes)?,
+        0x10_0001..=0x100_0000 => decode_within::<T, 0x100_0000>(bytes)?,
+        0x100_0001..=0x1000_0000 => decode_within::<T, 0x1000_0000>(bytes)?,
+        more => return Err(format!("{more} bytes are more than 256 MiB")),
+    };
     if used != bytes.len() {
         return Err(format!("{} bytes left over", bytes.len() - used));
     }
@@ -23,8 +30,46 @@ pub(crate) fn decode<T: Serialize + DeserializeOwned>(bytes: &[u8]) -> Result<T,
     Ok(value)
 }
 
+fn decode_within<T: DeserializeOwned, const LIMIT: usize>(
+    bytes: &[u8],
+) -> Result<(T, usize), String> {
+    bincode::serde::decode_from_slice(bytes, CONFIG.with_limit::<LIMIT>())
+        .map_err(|error| error.to_string())
+}
+
 /// Encodes a value of ours.
 pub(crate) fn encode<T: Serialize>(value: &T) -> Vec<u8> {
     bincode::serde::encode_to_vec(value, CONFIG)
         .expect("writing plain structs to a Vec has no way to fail")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_string_is_not_allocated_on_its_word() {
+        let bytes = u64::MAX.to_le_bytes();
+        assert!(decode::<String>(&bytes).is_err());
+        let bytes = (1_u64 << 40).to_le_bytes();
+        assert!(decode::<(String, u32)>(&bytes).is_err());
+    }
+
+    #[test]
+    fn an_input_may_fill_its_limit() {
+        for length in [0x1000, 0x1001, 0x1_0000, 0x1_0001] {
+            let text = "x".repeat(length - 8);
+            let bytes = encode(&text);
+            assert_eq!(bytes.len(), length);
+            assert_eq!(decode::<String>(&bytes), Ok(text));
+        }
+    }
+
+    #[test]
+    fn every_byte_counts() {
+        assert_eq!(decode::<bool>(&[1]), Ok(true));
+        assert!(decode::<bool>(&[2]).is_err());
+        assert_eq!(decode::<bool>(&[1, 0]), Err("1 bytes left over".to_owned()));
+        assert!(decode::<bool>(&[]).is_err());
+    }
 }

@@ -1,50 +1,221 @@
 //! Arrays of lookups in, colours out.
 
-use vtex_format::VtexFile;
-use vtex_shaders::layout::BatchQuery;
-use wgpu::{Device, Queue};
+use std::borrow::Cow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use vtex_format::{SHADER_ABI, SpecKey, VtexFile};
+use vtex_shaders::{BatchQuery, BindingSlot, batch_dispatch};
+use wgpu::{Buffer, BufferUsages, ComputePipeline, Device, Queue, ShaderSource};
+
+use crate::gpu::{checked, empty_buffer, filled_buffer, read_buffer};
 use crate::{LoadOptions, RuntimeError};
 
-/// Whose shader text is compiled.
+/// Whose shader is compiled. The key is the truth: text made from it is what a file means.
+///
+/// | | the file's text is what its key makes | it is not, or is of another ABI |
+/// |---|---|---|
+/// | [`Trust::Regenerate`] | our text | our text and a notice |
+/// | [`Trust::File`] | the file's SPIR-V | the file's SPIR-V and a notice; of another ABI: our text and a notice |
+///
+/// "Text" is the WGSL fragment stored beside the SPIR-V. The SPIR-V itself cannot be compared
+/// here, since this crate carries no SPIR-V writer: using it means to trust whoever wrote the
+/// file as far as naga's validation leaves room, which is to compute wrong colours or to run
+/// long, not to reach other memory. wgpu puts bounds on its loops and array indices as on any
+/// shader. Where it is refused, or the caller's [`LoadOptions`] change the key, our text is used
+/// and a notice says so.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Trust {
-    /// Ours, made from the file's key. What the file stores is only compared.
+    /// Ours, made from the key. What the file stores is only compared.
     #[default]
     Regenerate,
-    /// The kernel stored in the file, after naga has validated it; ours when it is refused.
+    /// The kernel stored in the file, if naga accepts it.
     File,
 }
 
+/// Queries of one dispatch; longer arrays are cut. 2 MiB of queries and 1 MiB of colours keep
+/// well inside core limits and each submission short.
+const CHUNK: usize = 1 << 16;
+
 /// Evaluates lookups of one texture on the GPU.
 #[derive(Debug)]
-pub struct BatchSampler;
+pub struct BatchSampler {
+    device: Device,
+    queue: Queue,
+    pipeline: ComputePipeline,
+    words: Buffer,
+    notices: Vec<String>,
+}
 
 impl BatchSampler {
     /// Uploads the texture and compiles its kernel.
     ///
     /// # Errors
-    /// As [`crate::GpuVtex::upload`].
+    /// As [`crate::GpuVtex::upload`]; [`RuntimeError::Shader`] when the device refuses our own
+    /// kernel, which is a defect.
     pub fn new(
-        _device: &Device,
-        _queue: &Queue,
-        _file: &VtexFile,
-        _options: &LoadOptions,
-        _trust: Trust,
+        device: &Device,
+        queue: &Queue,
+        file: &VtexFile,
+        options: &LoadOptions,
+        trust: Trust,
     ) -> Result<Self, RuntimeError> {
-        Err(RuntimeError::Unsupported("wip".to_owned()))
+        let words = vtex_shaders::pack(file, &options.pack);
+        let bytes = bytemuck::cast_slice(&words);
+        let words = filled_buffer(device, queue, "vtex texture", bytes, BufferUsages::STORAGE)?;
+        let key = vtex_shaders::spec_key_with(file, &options.pack);
+        let mut notices = Vec::new();
+        let stored = stored_kernel(device, file, &key, trust, &mut notices);
+        let pipeline = match stored {
+            Some(pipeline) => pipeline,
+            None => {
+                let wgsl = vtex_shaders::batch_kernel(&key);
+                pipeline(device, ShaderSource::Wgsl(wgsl.into()))?
+            }
+        };
+        Ok(Self {
+            device: device.clone(),
+            queue: queue.clone(),
+            pipeline,
+            words,
+            notices,
+        })
     }
 
-    /// Looks all queries up; linear light, premultiplied.
+    /// Looks all queries up, in order; linear light, premultiplied.
     ///
     /// # Errors
     /// [`RuntimeError::Device`] when the device is lost.
-    pub fn sample(&self, _queries: &[BatchQuery]) -> Result<Vec<[f32; 4]>, RuntimeError> {
-        Err(RuntimeError::Unsupported("wip".to_owned()))
+    pub fn sample(&self, queries: &[BatchQuery]) -> Result<Vec<[f32; 4]>, RuntimeError> {
+        let mut colors = Vec::with_capacity(queries.len());
+        for chunk in queries.chunks(CHUNK) {
+            colors.extend(self.sample_chunk(chunk)?);
+        }
+        Ok(colors)
     }
 
-    /// Why the file's own shader was not used, one sentence each.
-    pub fn notices(&self) -> &[String] {
-        &[]
+    fn sample_chunk(&self, queries: &[BatchQuery]) -> Result<Vec<[f32; 4]>, RuntimeError> {
+        let (device, queue) = (&self.device, &self.queue);
+        let bytes = bytemuck::cast_slice(queries);
+        let storage = BufferUsages::STORAGE;
+        let input = filled_buffer(device, queue, "vtex queries", bytes, storage)?;
+        let size = (queries.len() * size_of::<[f32; 4]>()) as u64;
+        let usage = storage | BufferUsages::COPY_SRC;
+        let output = empty_buffer(device, "vtex colours", size, usage)?;
+        let buffers = [&self.words, &input, &output];
+        let group = checked(device, "batch binding", || {
+            let entries: Vec<wgpu::BindGroupEntry<'_>> = (0..)
+                .zip(buffers)
+                .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                    binding,
+                    resource: buffer.as_entire_binding(),
+                })
+                .collect();
+            device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("vtex batch"),
+                layout: &self.pipeline.get_bind_group_layout(0),
+                entries: &entries,
+            })
+        })?;
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            let count = u32::try_from(queries.len()).unwrap_or(u32::MAX);
+            let [x, y, z] = batch_dispatch(count);
+            pass.dispatch_workgroups(x, y, z);
+        }
+        queue.submit([encoder.finish()]);
+        let bytes = read_buffer(device, queue, &output, size)?;
+        Ok(bytemuck::pod_collect_to_vec(&bytes))
     }
+
+    /// Where the file's own shader differs from its key or was not used though asked for, one
+    /// sentence each.
+    pub fn notices(&self) -> &[String] {
+        &self.notices
+    }
+}
+
+/// The file's kernel where [`Trust`]'s table says so.
+fn stored_kernel(
+    device: &Device,
+    file: &VtexFile,
+    key: &SpecKey,
+    trust: Trust,
+    notices: &mut Vec<String>,
+) -> Option<ComputePipeline> {
+    let blob = &file.shader;
+    if blob.abi != SHADER_ABI {
+        notices.push(format!(
+            "the file's shader is of ABI {}, this runtime's is {SHADER_ABI}: using our own",
+            blob.abi
+        ));
+        return None;
+    }
+    let ours = vtex_shaders::fragment(&file.spec, BindingSlot::default());
+    if ours != blob.wgsl_fragment {
+        let used = match trust {
+            Trust::Regenerate => "using our own",
+            Trust::File => "using the file's, as asked",
+        };
+        notices.push(format!("the file's shader is not what its key makes: {used}"));
+    }
+    if trust == Trust::Regenerate {
+        return None;
+    }
+    if *key != file.spec {
+        notices.push("load options change the shader key: using our own shader".to_owned());
+        return None;
+    }
+    let spirv = ShaderSource::SpirV(Cow::Borrowed(&blob.batch_spirv));
+    // naga may stumble over words no compiler would write; the process must not.
+    match catch_unwind(AssertUnwindSafe(|| pipeline(device, spirv))) {
+        Ok(Ok(pipeline)) => Some(pipeline),
+        Ok(Err(error)) => {
+            notices.push(format!("the file's kernel was refused, using our own: {error}"));
+            None
+        }
+        Err(_) => {
+            notices.push("the file's kernel could not be read: using our own".to_owned());
+            None
+        }
+    }
+}
+
+/// Compiles a kernel of the batch interface: group 0 with words, queries, colours.
+fn pipeline(device: &Device, source: ShaderSource<'_>) -> Result<ComputePipeline, RuntimeError> {
+    checked(device, "batch kernel", || {
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("vtex batch"),
+            source,
+        });
+        let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        };
+        let group = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("vtex batch"),
+            entries: &[entry(0, true), entry(1, true), entry(2, false)],
+        });
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("vtex batch"),
+            bind_group_layouts: &[Some(&group)],
+            immediate_size: 0,
+        });
+        device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some("vtex batch"),
+            layout: Some(&layout),
+            module: &module,
+            entry_point: Some("vtex_batch"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        })
+    })
 }

@@ -52,3 +52,84 @@ pub(crate) fn triangle(corners: [Vec3A; 3]) -> Triangle {
     let [v0, v1, v2] = corners;
     Triangle { v0, v1, v2 }
 }
+
+#[cfg(test)]
+mod tests {
+    use obvhs::ray::{Ray, RayHit};
+
+    use super::*;
+    use crate::{Camera, Gpu, RayQuery, Scene, TraceOptions, Tracer, scene};
+
+    /// All triangles in the order in which the tracer counts them.
+    fn world_triangles(scene: &Scene) -> Vec<Triangle> {
+        let mut triangles = Vec::new();
+        for instance in &scene.instances {
+            let mesh = &scene.meshes[instance.mesh];
+            let place = |i: u32| {
+                let position = mesh.positions[i as usize].into();
+                instance.world_from_object.transform_point3a(position)
+            };
+            triangles.extend(mesh.triangles.iter().map(|t| triangle(t.map(place))));
+        }
+        for light in &scene.lights {
+            let at = |u: f32, v: f32| Vec3A::from(light.corner + light.edge_u * u + light.edge_v * v);
+            triangles.push(triangle([at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0)]));
+            triangles.push(triangle([at(0.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)]));
+        }
+        triangles
+    }
+
+    /// Rays through pixel centres.
+    fn primary_rays(camera: &Camera, size: [u32; 2]) -> Vec<RayQuery> {
+        let [right, up, forward] = camera.axes().unwrap();
+        let tangent = (0.5 * camera.fov_y_rad).tan();
+        let [width, height] = size.map(|side| side as f32);
+        let ray = |i: u32| {
+            let x = ((i % size[0]) as f32 + 0.5) / width * 2.0 - 1.0;
+            let y = ((i / size[0]) as f32 + 0.5) / height * 2.0 - 1.0;
+            let direction = forward + tangent * (x * width / height * right - y * up);
+            RayQuery {
+                origin: camera.position.to_array(),
+                direction: direction.normalize().to_array(),
+                t_max: f32::MAX,
+            }
+        };
+        (0..size[0] * size[1]).map(ray).collect()
+    }
+
+    #[test]
+    fn traversal_on_the_device_is_that_of_obvhs_to_the_bit() {
+        if std::env::var("VTEX_GPU").is_ok_and(|value| value == "off") {
+            return;
+        }
+        let gpu = Gpu::headless().expect("an adapter; VTEX_GPU=off skips this test");
+        let scene = scene::showroom(Vec::new());
+        let options = TraceOptions::default();
+        let tracer = Tracer::new(&gpu.device, &gpu.queue, &scene, [8, 8], &options).unwrap();
+        let rays = primary_rays(&scene.camera, [480, 320]);
+        let found = tracer.intersect(&rays).unwrap();
+
+        let triangles = world_triangles(&scene);
+        let bvh = build(&triangles);
+        let (mut hits, mut differences) = (0, 0);
+        for (query, found) in rays.iter().zip(found) {
+            let direction = Vec3A::from(query.direction);
+            let ray = Ray::new(query.origin.into(), direction, 0.0, query.t_max);
+            let mut nearest = RayHit::none();
+            let hit = bvh.ray_traverse(ray, &mut nearest, |ray, id| {
+                triangles[bvh.primitive_indices[id] as usize].intersect(ray)
+            });
+            let expected = hit.then(|| {
+                let triangle = bvh.primitive_indices[nearest.primitive_id as usize];
+                (nearest.t.to_bits(), triangle)
+            });
+            hits += usize::from(hit);
+            let found = found.map(|hit| (hit.t.to_bits(), hit.triangle));
+            differences += usize::from(found != expected);
+        }
+        assert!(hits > rays.len() / 2, "only {hits} rays hit");
+        // Graphics cards may fuse multiply and add; software drivers compute as written.
+        let allowed = if gpu.is_software() { 0 } else { rays.len() / 100 };
+        assert!(differences <= allowed, "{differences} of {hits} hits differ");
+    }
+}

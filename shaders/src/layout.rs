@@ -3,116 +3,167 @@
 //! Several textures can lie in one array; every offset is relative to the texture's first word,
 //! so that a packed texture can be moved. All floats are f32 bits.
 
-/// Words of the header, by index. `wgsl/core/layout.wgsl` holds the same constants; a test
-/// compares them through naga.
-pub mod header {
+/// Makes modules of constants, and [`CONSTANTS`] with all of them under the name that
+/// `wgsl/core/layout.wgsl` gives them: `header::FILTER` is `VTEX_HEADER_FILTER`.
+macro_rules! shared_constants {
+    ($(
+        $(#[$module_doc:meta])*
+        mod $module:ident = $prefix:literal {
+            $($(#[$doc:meta])* $name:ident = $value:expr;)*
+        }
+    )*) => {
+        $(
+            $(#[$module_doc])*
+            pub mod $module {
+                $($(#[$doc])* pub const $name: u32 = $value;)*
+            }
+        )*
+
+        /// Every constant that crosses the border, by its name in WGSL. A test compares names and
+        /// values through naga, both ways.
+        pub const CONSTANTS: &[(&str, u32)] = &[
+            $($((concat!("VTEX_", $prefix, "_", stringify!($name)), $module::$name),)*)*
+        ];
+    };
+}
+
+shared_constants! {
+/// Words of the header, by index.
+mod header = "HEADER" {
     /// [`vtex_format::SHADER_ABI`].
-    pub const ABI: u32 = 0;
-    /// [`crate::FilterMode`](super::FilterMode).
-    pub const FILTER: u32 = 1;
+    ABI = 0;
+    /// [`FilterMode`](super::FilterMode).
+    FILTER = 1;
     /// [`vtex_format::AddressMode`] along u.
-    pub const ADDRESS_U: u32 = 2;
+    ADDRESS_U = 2;
     /// [`vtex_format::AddressMode`] along v.
-    pub const ADDRESS_V: u32 = 3;
+    ADDRESS_V = 3;
     /// Six floats a b c d e f: `u' = a u + c v + e`, `v' = b u + d v + f`.
-    pub const TEXTURE_MATRIX: u32 = 4;
+    TEXTURE_MATRIX = 4;
     /// Two floats: cells a unit of uv.
-    pub const CELL_FROM_UV_SCALE: u32 = 10;
+    CELL_FROM_UV_SCALE = 10;
     /// Two floats: lattice origin.
-    pub const CELL_FROM_UV_OFFSET: u32 = 12;
+    CELL_FROM_UV_OFFSET = 12;
     /// Two integers: columns and rows.
-    pub const GRID_SIZE: u32 = 14;
+    GRID_SIZE = 14;
     /// Lattice steps of an MSDF tile along a cell.
-    pub const TEXELS_PER_CELL: u32 = 16;
+    TEXELS_PER_CELL = 16;
     /// Float: full distance range in texels.
-    pub const DISTANCE_RANGE: u32 = 17;
+    DISTANCE_RANGE = 17;
     /// Float: half width S of [SFG22] eq. 1.
-    pub const SMOOTHING: u32 = 18;
+    SMOOTHING = 18;
     /// Float: eq. 2's width in texels; 0 when off.
-    pub const OUTLINE_WIDTH: u32 = 19;
+    OUTLINE_WIDTH = 19;
     /// Paint index of eq. 2's outline.
-    pub const OUTLINE_PAINT: u32 = 20;
+    OUTLINE_PAINT = 20;
     /// First word of the cells.
-    pub const CELLS: u32 = 21;
+    CELLS = 21;
     /// First word of the entries.
-    pub const ENTRIES: u32 = 22;
-    /// First word of the paints, [`super::PAINT_WORDS`] each.
-    pub const PAINTS: u32 = 23;
+    ENTRIES = 22;
+    /// First word of the paints, [`paint::WORDS`](super::paint::WORDS) each.
+    PAINTS = 23;
     /// First word of the tiles, `(texels_per_cell + 1)^2` each, one RGBA8 texel a word.
-    pub const TILES: u32 = 24;
-    /// First word of the image records, [`super::IMAGE_WORDS`] each.
-    pub const IMAGES: u32 = 25;
+    TILES = 24;
+    /// First word of the image records, [`image::WORDS`](super::image::WORDS) each.
+    IMAGES = 25;
     /// Number of images.
-    pub const IMAGE_COUNT: u32 = 26;
+    IMAGE_COUNT = 26;
     /// Bits of [`vtex_format::Features`].
-    pub const FEATURES: u32 = 27;
+    FEATURES = 27;
     /// Words of the header; the rest are zero.
-    pub const WORDS: u32 = 32;
+    WORDS = 32;
 }
 
-/// Words of a paint: linear-light premultiplied RGBA, then sRGB-encoded straight RGBA, as floats.
-pub const PAINT_WORDS: u32 = 8;
-
-/// Words of a paint, by index.
-pub mod paint {
-    /// Four floats: linear light, premultiplied.
-    pub const LINEAR: u32 = 0;
-    /// Four floats: sRGB-encoded, straight alpha.
-    pub const ENCODED: u32 = 4;
+/// [`FilterMode`] as stored.
+mod filter = "FILTER" {
+    /// [`FilterMode::Point`](super::FilterMode::Point).
+    POINT = super::FilterMode::Point as u32;
+    /// [`FilterMode::Footprint`](super::FilterMode::Footprint).
+    FOOTPRINT = super::FilterMode::Footprint as u32;
+    /// [`FilterMode::Paper`](super::FilterMode::Paper).
+    PAPER = super::FilterMode::Paper as u32;
 }
 
-/// Words of an image record: `rect_uv` (4 floats), width, height, level count, 0, then the first
-/// word of each of 16 levels. A texel is two words, four halves: linear light, premultiplied.
-pub const IMAGE_WORDS: u32 = 24;
+/// [`vtex_format::AddressMode`] as stored.
+mod address = "ADDRESS" {
+    /// [`vtex_format::AddressMode::Clamp`].
+    CLAMP = vtex_format::AddressMode::Clamp as u32;
+    /// [`vtex_format::AddressMode::Repeat`].
+    REPEAT = vtex_format::AddressMode::Repeat as u32;
+    /// [`vtex_format::AddressMode::Mirror`].
+    MIRROR = vtex_format::AddressMode::Mirror as u32;
+    /// [`vtex_format::AddressMode::Border`].
+    BORDER = vtex_format::AddressMode::Border as u32;
+}
 
-/// Words of an image record, by index, and of its texels.
-pub mod image {
-    /// Four floats: left, top, right, bottom in uv.
-    pub const RECT_UV: u32 = 0;
-    /// Two integers: texels of level 0.
-    pub const SIZE: u32 = 4;
-    /// Number of levels, at most [`vtex_format::MAX_MIPS`].
-    pub const LEVEL_COUNT: u32 = 6;
-    /// First word of each level.
-    pub const LEVELS: u32 = 8;
-    /// Words of a texel.
-    pub const TEXEL_WORDS: u32 = 2;
+/// Features that a scene's shader asks the header for.
+mod feature = "FEATURE" {
+    /// [`vtex_format::Features::MIPS`].
+    MIPS = vtex_format::Features::MIPS;
+    /// [`vtex_format::Features::MASK`].
+    MASK = vtex_format::Features::MASK;
 }
 
 /// Parts of a cell's word: [`vtex_format::CellWord`].
-pub mod cell {
-    /// Bits below the tag.
-    pub const PAYLOAD_MASK: u32 = (1 << TAG_SHIFT) - 1;
+mod cell = "CELL" {
     /// Position of the tag.
-    pub const TAG_SHIFT: u32 = vtex_format::CELL_TAG_SHIFT;
+    TAG_SHIFT = vtex_format::CELL_TAG_SHIFT;
+    /// Bits below the tag.
+    PAYLOAD_MASK = (1 << TAG_SHIFT) - 1;
     /// Tag of an empty cell.
-    pub const EMPTY: u32 = 0;
+    EMPTY = 0;
     /// Tag of a cell of one colour.
-    pub const SOLID: u32 = 1;
+    SOLID = 1;
     /// Tag of a cell with a list.
-    pub const LIST: u32 = 2;
+    LIST = 2;
 }
 
 /// Parts of an entry's first word: [`vtex_format::Entry`].
-pub mod entry {
-    use vtex_format::EntryKind;
-
+mod entry = "ENTRY" {
     /// Words of an entry.
-    pub const WORDS: u32 = 2;
+    WORDS = 2;
     /// Position of the kind.
-    pub const KIND_SHIFT: u32 = 28;
+    KIND_SHIFT = 28;
     /// Set in the last, backmost entry.
-    pub const LAST_BIT: u32 = 1 << 27;
+    LAST_BIT = 1 << 27;
     /// Set where nothing behind a coverage of 1 shows.
-    pub const OPAQUE_BIT: u32 = 1 << 26;
+    OPAQUE_BIT = 1 << 26;
     /// Bits of the paint or image index.
-    pub const INDEX_MASK: u32 = OPAQUE_BIT - 1;
-    /// [`EntryKind::Full`].
-    pub const FULL: u32 = EntryKind::Full as u32;
-    /// [`EntryKind::Msdf`].
-    pub const MSDF: u32 = EntryKind::Msdf as u32;
-    /// [`EntryKind::Image`].
-    pub const IMAGE: u32 = EntryKind::Image as u32;
+    INDEX_MASK = OPAQUE_BIT - 1;
+    /// [`vtex_format::EntryKind::Full`].
+    FULL = vtex_format::EntryKind::Full as u32;
+    /// [`vtex_format::EntryKind::Msdf`].
+    MSDF = vtex_format::EntryKind::Msdf as u32;
+    /// [`vtex_format::EntryKind::Image`].
+    IMAGE = vtex_format::EntryKind::Image as u32;
+}
+
+/// Words of a paint, by index.
+mod paint = "PAINT" {
+    /// Words of a paint.
+    WORDS = 8;
+    /// Four floats: linear light, premultiplied.
+    LINEAR = 0;
+    /// Four floats: sRGB-encoded, straight alpha.
+    ENCODED = 4;
+}
+
+/// Words of an image record, by index, and of its texels: four halves, linear light,
+/// premultiplied.
+mod image = "IMAGE" {
+    /// Words of a record.
+    WORDS = 24;
+    /// Four floats: left, top, right, bottom in uv.
+    RECT_UV = 0;
+    /// Two integers: texels of level 0.
+    SIZE = 4;
+    /// Number of levels, at most [`vtex_format::MAX_MIPS`].
+    LEVEL_COUNT = 6;
+    /// First word of each level.
+    LEVELS = 8;
+    /// Words of a texel.
+    TEXEL_WORDS = 2;
+}
 }
 
 /// How a lookup turns distances into coverage.
@@ -138,4 +189,68 @@ pub struct BatchQuery {
     pub padding: [f32; 2],
     /// Two axes of the filter region, `axis0.u, axis0.v, axis1.u, axis1.v`, full extents in uv.
     pub footprint: [f32; 4],
+}
+
+/// A record's layout, to be compared with that of the WGSL struct.
+#[derive(Clone, Copy, Debug)]
+pub struct RecordLayout {
+    /// Name of the struct in WGSL.
+    pub name: &'static str,
+    /// Bytes from one array element to the next.
+    pub span_bytes: usize,
+    /// Fields in order, with their offsets in bytes.
+    pub fields: &'static [(&'static str, usize)],
+}
+
+/// Makes the [`RecordLayout`] of a `repr(C)` struct from its name in WGSL and all its fields.
+#[macro_export]
+macro_rules! gpu_record {
+    ($record:ty as $name:literal { $($field:ident),* $(,)? }) => {
+        $crate::layout::RecordLayout {
+            name: $name,
+            span_bytes: ::std::mem::size_of::<$record>(),
+            fields: &[$((stringify!($field), ::std::mem::offset_of!($record, $field))),*],
+        }
+    };
+}
+
+/// [`BatchQuery`] as `wgsl/core/query.wgsl` has it.
+pub const BATCH_QUERY: RecordLayout =
+    gpu_record!(BatchQuery as "VtexBatchQuery" { uv, padding, footprint });
+
+#[cfg(test)]
+mod tests {
+    use super::{cell, entry};
+    use vtex_format::{CellWord, Entry, EntryKind};
+
+    #[test]
+    fn cells_and_entries_decode_as_the_format_encodes_them() {
+        let word = CellWord::Solid { paint: 5 }.encode().unwrap();
+        assert_eq!(
+            (word >> cell::TAG_SHIFT, word & cell::PAYLOAD_MASK),
+            (cell::SOLID, 5)
+        );
+        let word = CellWord::List { offset_words: 6 }.encode().unwrap();
+        assert_eq!(
+            (word >> cell::TAG_SHIFT, word & cell::PAYLOAD_MASK),
+            (cell::LIST, 6)
+        );
+        for (last, opaque) in [(false, false), (true, false), (false, true)] {
+            let kind = EntryKind::Msdf;
+            let encoded = Entry {
+                kind,
+                last,
+                opaque,
+                index: 77,
+                data: 9,
+            }
+            .encode()
+            .unwrap();
+            assert_eq!(encoded.len(), entry::WORDS as usize);
+            assert_eq!(encoded[0] >> entry::KIND_SHIFT, entry::MSDF);
+            assert_eq!(encoded[0] & entry::INDEX_MASK, 77);
+            assert_eq!(encoded[0] & entry::LAST_BIT != 0, last);
+            assert_eq!(encoded[0] & entry::OPAQUE_BIT != 0, opaque);
+        }
+    }
 }

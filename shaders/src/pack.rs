@@ -7,7 +7,7 @@ use vtex_format::{
 };
 
 use crate::cpu::color;
-use crate::layout::{FilterMode, IMAGE_WORDS, header, image};
+use crate::layout::{FilterMode, header, image};
 use crate::spec::spec_key_with;
 
 /// What a caller sets or overrides when a texture is loaded.
@@ -114,10 +114,10 @@ fn image_words(words: &mut Vec<u32>, images: &[Image]) {
     let records = words.len();
     words[header::IMAGES as usize] = word_index(records);
     words[header::IMAGE_COUNT as usize] = word_index(images.len());
-    words.resize(records + images.len() * IMAGE_WORDS as usize, 0);
+    words.resize(records + images.len() * image::WORDS as usize, 0);
     let halves = TexelHalves::new();
     for (index, stored) in images.iter().enumerate() {
-        let record = records + index * IMAGE_WORDS as usize;
+        let record = records + index * image::WORDS as usize;
         let put = |at: u32, values: &[u32], words: &mut Vec<u32>| {
             words[record + at as usize..][..values.len()].copy_from_slice(values);
         };

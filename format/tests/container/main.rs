@@ -4,5 +4,8 @@
 #![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 #![expect(clippy::cast_possible_truncation, reason = "sample numbers are small")]
 
+mod cases;
+mod damage;
+mod forge;
 mod roundtrip;
 mod sample;

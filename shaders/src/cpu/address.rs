@@ -2,11 +2,7 @@
 
 use super::Sampler;
 use super::math::clamp;
-use vtex_format::AddressMode;
-
-const REPEAT: u32 = AddressMode::Repeat as u32;
-const MIRROR: u32 = AddressMode::Mirror as u32;
-const BORDER: u32 = AddressMode::Border as u32;
+use crate::layout::address::{BORDER, MIRROR, REPEAT};
 
 fn axis(t: f32, mode: u32) -> f32 {
     match mode {

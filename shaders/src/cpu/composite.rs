@@ -3,10 +3,8 @@
 use super::entry::entry;
 use super::over::{opaque, over, over_encoded};
 use super::{Lookup, Sampler, Value, color};
-use crate::layout::{FilterMode, entry as layout};
+use crate::layout::{entry as layout, filter};
 use vtex_format::MAX_ENTRIES_PER_CELL;
-
-const POINT: u32 = FilterMode::Point as u32;
 
 fn is_last(head: u32) -> bool {
     head & layout::LAST_BIT != 0
@@ -53,7 +51,7 @@ pub(super) fn translucent(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) ->
 }
 
 fn behind(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) -> [f32; 4] {
-    if sampler.settings.filter == POINT {
+    if sampler.settings.filter == filter::POINT {
         point(sampler, first, lookup)
     } else {
         ramp(sampler, first, lookup)

@@ -2,7 +2,7 @@
 
 use super::math::{clamp, to_f32, to_u32};
 use super::{Lookup, Sampler, Value};
-use crate::layout::{IMAGE_WORDS, image};
+use crate::layout::image;
 
 /// `index` of a texel left, right, above or below the edge comes back in.
 fn neighbour(index: f32, count: f32, wraps: bool) -> f32 {
@@ -78,7 +78,7 @@ pub(super) fn trilinear<V: Value>(
 /// A patch that stands for what is not vector: nothing outside its rectangle.
 pub(super) fn entry<V: Value>(sampler: &Sampler<'_>, index: u32, lookup: &Lookup) -> V {
     let s = &sampler.settings;
-    let record = index.wrapping_mul(IMAGE_WORDS).wrapping_add(s.images);
+    let record = index.wrapping_mul(image::WORDS).wrapping_add(s.images);
     let rect = sampler.word_float4(record.wrapping_add(image::RECT_UV));
     let size = [rect[2] - rect[0], rect[3] - rect[1]];
     let t = [

@@ -2,10 +2,7 @@
 
 use super::Sampler;
 use super::math::{clamp, median, smoothstep, to_f32, to_u32};
-use crate::layout::FilterMode;
-
-const FOOTPRINT: u32 = FilterMode::Footprint as u32;
-const PAPER: u32 = FilterMode::Paper as u32;
+use crate::layout::filter::{FOOTPRINT, PAPER};
 
 /// Red, green and blue of a texel, in \[0, 1\]; the fourth lane is idle.
 fn unpack(word: u32) -> [f32; 4] {

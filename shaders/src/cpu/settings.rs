@@ -1,8 +1,9 @@
 //! The header, read once. Twin of `vtex/settings_header.wgsl`.
 
-use super::words::word_of;
-use crate::layout::{PAINT_WORDS, entry, header, paint};
 use vtex_format::Features;
+
+use super::words::word_of;
+use crate::layout::{entry, header, paint};
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Settings {
@@ -54,7 +55,7 @@ impl Settings {
         if settings.has(Features::OUTLINE) {
             let index = word(header::OUTLINE_PAINT);
             let first = index
-                .wrapping_mul(PAINT_WORDS)
+                .wrapping_mul(paint::WORDS)
                 .wrapping_add(settings.paints);
             let alpha = float(first.wrapping_add(paint::LINEAR + 3));
             let opaque = if alpha >= 1.0 { entry::OPAQUE_BIT } else { 0 };

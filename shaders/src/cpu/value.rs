@@ -2,7 +2,7 @@
 
 use super::math::half_to_f32;
 use super::{Lookup, Sampler, composite};
-use crate::layout::{PAINT_WORDS, paint};
+use crate::layout::paint;
 use vtex_format::Features;
 
 pub(super) trait Value: Copy {
@@ -23,7 +23,7 @@ pub(super) trait Value: Copy {
 /// First word of a paint.
 pub(super) fn paint_first(sampler: &Sampler<'_>, index: u32) -> u32 {
     index
-        .wrapping_mul(PAINT_WORDS)
+        .wrapping_mul(paint::WORDS)
         .wrapping_add(sampler.settings.paints)
 }
 

@@ -1,0 +1,251 @@
+//! The cell grid: for each cell what shows in it, front to back.
+
+use std::collections::BTreeMap;
+
+use vtex_format::{CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL};
+
+use crate::{
+    classify::ShapeCells, error::BakeError, grid::Lattice, paint_table::PaintTable, placed::Placed,
+    subset::Packing,
+};
+
+/// What a cell list is made from: one record an item, in painter's order.
+#[derive(Debug)]
+pub(crate) struct CellInput<'a> {
+    /// The items.
+    pub(crate) placed: &'a [Placed],
+    /// Their classification; empty for patches.
+    pub(crate) cells: &'a [ShapeCells],
+    /// Their paint, or their image for a patch.
+    pub(crate) paint_or_image: &'a [u32],
+    /// Their ranks.
+    pub(crate) packing: &'a Packing,
+    /// Layer of each rank.
+    pub(crate) layer_of_rank: &'a [u32],
+}
+
+/// The grid's words and what they need.
+#[derive(Debug, Default)]
+pub(crate) struct CellLists {
+    /// One word a cell: [`CellWord`].
+    pub(crate) words: Vec<u32>,
+    /// The lists: [`Entry`].
+    pub(crate) entries: Vec<u32>,
+    /// Tiles, layer by layer and cell by cell.
+    pub(crate) tiles: Vec<TileDraft>,
+}
+
+/// A tile that some cell lists.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct TileDraft {
+    /// Index of its layer.
+    pub(crate) layer: u32,
+    /// Index of its cell.
+    pub(crate) cell: u32,
+    /// Items in it, in painter's order.
+    pub(crate) items: Vec<u32>,
+}
+
+/// An entry before tiles have indices.
+#[derive(Clone, Debug, PartialEq)]
+enum Draft {
+    Full { paint: u32 },
+    Tile { paint: u32, tile: TileDraft },
+    Image { image: u32 },
+}
+
+/// Builds every cell's list.
+pub(crate) fn build_cells(
+    input: &CellInput<'_>,
+    lattice: &Lattice,
+    paints: &mut PaintTable,
+) -> Result<CellLists, BakeError> {
+    let drafts: Vec<Vec<Draft>> = items_by_cell(input, lattice)
+        .into_iter()
+        .zip(0_u32..)
+        .map(|(items, cell)| draft_cell(input, items, cell, paints))
+        .collect();
+    let mut tiles: Vec<TileDraft> = drafts
+        .iter()
+        .flatten()
+        .filter_map(|draft| match draft {
+            Draft::Tile { tile, .. } => Some(tile.clone()),
+            _ => None,
+        })
+        .collect();
+    // Layer by layer as the format wants; within a cell a layer may have a tile a paint.
+    tiles.sort_unstable();
+    let mut encoder = ListEncoder {
+        lists: CellLists {
+            tiles,
+            ..CellLists::default()
+        },
+        shared: BTreeMap::new(),
+        paints,
+    };
+    for cell in &drafts {
+        let word = encoder.cell_word(cell)?;
+        encoder.lists.words.push(word);
+    }
+    Ok(encoder.lists)
+}
+
+/// For every cell the items in it, in painter's order, and whether they cover it whole.
+fn items_by_cell(input: &CellInput<'_>, lattice: &Lattice) -> Vec<Vec<(u32, bool)>> {
+    let mut by_cell = vec![Vec::new(); lattice.cell_count()];
+    for (item, (placed, cells)) in (0_u32..).zip(input.placed.iter().zip(input.cells)) {
+        if placed.is_shape() {
+            for &cell in &cells.listed {
+                by_cell[cell as usize].push((item, false));
+            }
+            for &cell in &cells.full {
+                by_cell[cell as usize].push((item, true));
+            }
+        } else if let Some([columns, rows]) = lattice.cells_in(placed.bounds()) {
+            for row in rows[0]..=rows[1] {
+                for column in columns[0]..=columns[1] {
+                    let cell = row * lattice.grid.size_cells[0] + column;
+                    by_cell[cell as usize].push((item, false));
+                }
+            }
+        }
+    }
+    by_cell
+}
+
+/// Sorts, merges, folds and cuts one cell's items into its entries, front to back.
+fn draft_cell(
+    input: &CellInput<'_>,
+    mut items: Vec<(u32, bool)>,
+    cell: u32,
+    paints: &mut PaintTable,
+) -> Vec<Draft> {
+    // Members of a rank do not meet, so their order is free and equal paints may come together.
+    let free = !input.packing.forced;
+    items.sort_unstable_by_key(|&(item, _)| {
+        let index = item as usize;
+        let paint = if free { input.paint_or_image[index] } else { 0 };
+        std::cmp::Reverse((input.packing.ranks[index], paint, item))
+    });
+    let mut drafts: Vec<Draft> = Vec::new();
+    for (item, full) in items {
+        let draft = draft_item(input, item, full, cell);
+        let opaque_full = matches!(draft, Draft::Full { paint } if paints.is_opaque(paint));
+        let merged = match drafts.last_mut() {
+            Some(front) => merge(front, &draft, paints),
+            None => false,
+        };
+        if !merged {
+            drafts.push(draft);
+        }
+        if opaque_full {
+            break;
+        }
+    }
+    drafts
+}
+
+fn draft_item(input: &CellInput<'_>, item: u32, full: bool, cell: u32) -> Draft {
+    let index = item as usize;
+    let paint = input.paint_or_image[index];
+    if !input.placed[index].is_shape() {
+        return Draft::Image { image: paint };
+    }
+    if full {
+        return Draft::Full { paint };
+    }
+    let layer = input.layer_of_rank[input.packing.ranks[index] as usize];
+    let tile = TileDraft {
+        layer,
+        cell,
+        items: vec![item],
+    };
+    Draft::Tile { paint, tile }
+}
+
+/// Takes `back` into `front` where one entry can stand for both.
+fn merge(front: &mut Draft, back: &Draft, paints: &mut PaintTable) -> bool {
+    match (front, back) {
+        (Draft::Full { paint }, Draft::Full { paint: behind }) => {
+            *paint = paints.intern_over(*paint, *behind);
+            true
+        }
+        (
+            Draft::Tile { paint, tile },
+            Draft::Tile {
+                paint: other_paint,
+                tile: other,
+            },
+        ) if paint == other_paint && tile.layer == other.layer => {
+            tile.items.extend(&other.items);
+            tile.items.sort_unstable();
+            true
+        }
+        _ => false,
+    }
+}
+
+struct ListEncoder<'a> {
+    lists: CellLists,
+    /// Offsets of the lists so far, so that equal ones are stored once.
+    shared: BTreeMap<Vec<u32>, u32>,
+    paints: &'a PaintTable,
+}
+
+impl ListEncoder<'_> {
+    fn cell_word(&mut self, drafts: &[Draft]) -> Result<u32, BakeError> {
+        let word = match drafts {
+            [] => CellWord::Empty,
+            [Draft::Full { paint }] => CellWord::Solid { paint: *paint },
+            list => CellWord::List {
+                offset_words: self.list_offset(list)?,
+            },
+        };
+        word.encode()
+            .ok_or_else(|| BakeError::Limit("more paints or entries than a cell can name".into()))
+    }
+
+    fn list_offset(&mut self, list: &[Draft]) -> Result<u32, BakeError> {
+        if list.len() > MAX_ENTRIES_PER_CELL as usize {
+            return Err(BakeError::Limit(format!(
+                "{} shapes show in one cell of the grid, at most {MAX_ENTRIES_PER_CELL} can",
+                list.len()
+            )));
+        }
+        let mut words = Vec::with_capacity(2 * list.len());
+        for (i, draft) in list.iter().enumerate() {
+            let mut entry = self.entry(draft);
+            entry.last = i + 1 == list.len();
+            let encoded = entry.encode();
+            words.extend(encoded.ok_or_else(|| {
+                BakeError::Limit("more paints or images than an entry can name".into())
+            })?);
+        }
+        let next = u32::try_from(self.lists.entries.len())
+            .map_err(|_| BakeError::Limit("the cells' lists are too long".into()))?;
+        let offset = *self.shared.entry(words.clone()).or_insert(next);
+        if offset == next {
+            self.lists.entries.extend(words);
+        }
+        Ok(offset)
+    }
+
+    fn entry(&self, draft: &Draft) -> Entry {
+        let (kind, index, data) = match draft {
+            Draft::Full { paint } => (EntryKind::Full, *paint, 0),
+            Draft::Image { image } => (EntryKind::Image, *image, 0),
+            Draft::Tile { paint, tile } => {
+                let tile = self.lists.tiles.partition_point(|other| other < tile);
+                let tile = u32::try_from(tile).unwrap_or(u32::MAX);
+                (EntryKind::Msdf, *paint, tile)
+            }
+        };
+        Entry {
+            kind,
+            last: false,
+            opaque: kind != EntryKind::Image && self.paints.is_opaque(index),
+            index,
+            data,
+        }
+    }
+}

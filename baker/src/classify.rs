@@ -1,0 +1,132 @@
+//! Which cells a shape's edge is near, and which lie inside it.
+
+use std::collections::BTreeSet;
+
+use kurbo::{Line, Rect};
+
+use crate::{
+    geometry::{clip_line, line_box_distance},
+    grid::Lattice,
+    msdf::{EDGE_ERROR_TEXELS, Edge, Rows, edges_of},
+    placed::Placed,
+};
+
+/// Distances in lattice steps at which an edge concerns a cell.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Distances {
+    /// Within it some filter mode sees partial coverage: the cell lists the shape.
+    pub(crate) margin: f64,
+    /// Within it the edge takes part in the cell's tile.
+    pub(crate) reach: f64,
+}
+
+/// A shape against the grid. Cells are indices, row by row.
+#[derive(Debug, Default)]
+pub(crate) struct ShapeCells {
+    /// The shape's coloured edges.
+    pub(crate) edges: Vec<Edge>,
+    /// Cell and index of an edge within [`Distances::reach`] of it, sorted.
+    near: Vec<(u32, u32)>,
+    /// Cells with an edge within [`Distances::margin`], ascending.
+    pub(crate) listed: Vec<u32>,
+    /// Cells that, widened by the margin, lie inside, ascending.
+    pub(crate) full: Vec<u32>,
+    /// Inside tests on the lattice.
+    pub(crate) rows: Rows,
+}
+
+impl ShapeCells {
+    /// Edges that take part in a cell's tile.
+    pub(crate) fn edges_near(&self, cell: u32) -> impl Iterator<Item = &Edge> {
+        let first = self.near.partition_point(|near| near.0 < cell);
+        let last = self.near.partition_point(|near| near.0 <= cell);
+        self.near[first..last]
+            .iter()
+            .map(|near| &self.edges[near.1 as usize])
+    }
+}
+
+/// Classifies `placed` against every cell it meets.
+pub(crate) fn classify(placed: &Placed, lattice: &Lattice, distances: Distances) -> ShapeCells {
+    let mut cells = ShapeCells {
+        edges: edges_of(&placed.outline),
+        ..ShapeCells::default()
+    };
+    let widened = placed.bounds().inflate(distances.margin, distances.margin);
+    let Some([columns, rows]) = lattice.cells_in(widened) else {
+        return ShapeCells::default();
+    };
+    bin_edges(&mut cells, lattice, distances);
+    let n = lattice.grid.texels_per_cell;
+    cells.rows = Rows::new(&placed.region, rows[0] * n, (rows[1] + 1) * n);
+    let mut listed = cells.listed.iter().copied().peekable();
+    for row in rows[0]..=rows[1] {
+        for column in columns[0]..=columns[1] {
+            let cell = row * lattice.grid.size_cells[0] + column;
+            while listed.next_if(|&other| other < cell).is_some() {}
+            if listed.peek() == Some(&cell) {
+                continue;
+            }
+            // No edge is near, so any point speaks for the cell.
+            let [x, y] = [column, row].map(|index| index * n + n / 2);
+            if cells.rows.contains(&placed.region, x, y) {
+                cells.full.push(cell);
+            }
+        }
+    }
+    cells
+}
+
+fn bin_edges(cells: &mut ShapeCells, lattice: &Lattice, distances: Distances) {
+    let margin = distances.margin + EDGE_ERROR_TEXELS;
+    let reach = distances.reach.max(margin);
+    let window = lattice.canvas.inflate(
+        reach + 2.0 * lattice.cell_steps(),
+        reach + 2.0 * lattice.cell_steps(),
+    );
+    let mut near = BTreeSet::new();
+    let mut listed = BTreeSet::new();
+    for (index, edge) in (0_u32..).zip(&cells.edges) {
+        for line in edge.lines(f64::INFINITY) {
+            let Some(line) = clip_line(line, window) else {
+                continue;
+            };
+            for piece in split(line, lattice.cell_steps()) {
+                for (cell, distance) in cells_near(piece, lattice, reach) {
+                    near.insert((cell, index));
+                    if distance <= margin {
+                        listed.insert(cell);
+                    }
+                }
+            }
+        }
+    }
+    cells.near = near.into_iter().collect();
+    cells.listed = listed.into_iter().collect();
+}
+
+/// Cells within `reach` of `line`, with their distance.
+fn cells_near(line: Line, lattice: &Lattice, reach: f64) -> Vec<(u32, f64)> {
+    let area = Rect::from_points(line.p0, line.p1).inflate(reach, reach);
+    let Some([columns, rows]) = lattice.cells_in(area) else {
+        return Vec::new();
+    };
+    let mut near = Vec::new();
+    for row in rows[0]..=rows[1] {
+        for column in columns[0]..=columns[1] {
+            let distance = line_box_distance(line, lattice.cell_rect(column, row));
+            if distance <= reach {
+                near.push((row * lattice.grid.size_cells[0] + column, distance));
+            }
+        }
+    }
+    near
+}
+
+/// `line` in pieces no longer than `longest`.
+pub(crate) fn split(line: Line, longest: f64) -> impl Iterator<Item = Line> {
+    let pieces = ((line.p1 - line.p0).hypot() / longest).ceil().max(1.0);
+    #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
+    let at = move |k: usize| line.p0.lerp(line.p1, k as f64 / pieces);
+    (0..crate::geometry::floor_index(pieces)).map(move |k| Line::new(at(k), at(k + 1)))
+}

@@ -1,0 +1,104 @@
+//! Outlines as short straight lines within a stated tolerance.
+
+use kurbo::{BezPath, Line, ParamCurve, PathEl, PathSeg, Point, Rect};
+
+use super::floor_index;
+
+/// Most lines one segment is cut into; a segment that would need more is coarser than asked.
+const MAX_LINES: f64 = 65_536.0;
+
+/// Points that follow each other along an outline.
+type Polyline = Vec<Point>;
+
+/// Appends the end points of the lines that replace `segment`, without its start. No line leaves
+/// the curve by more than `tolerance`.
+pub(crate) fn flatten_segment(segment: PathSeg, tolerance: f64, points: &mut Polyline) {
+    let bend = match segment {
+        PathSeg::Line(_) => 0.0,
+        PathSeg::Quad(q) => 2.0 * (q.p0.to_vec2() - 2.0 * q.p1.to_vec2() + q.p2.to_vec2()).hypot(),
+        PathSeg::Cubic(c) => {
+            let first = (c.p0.to_vec2() - 2.0 * c.p1.to_vec2() + c.p2.to_vec2()).hypot();
+            let second = (c.p1.to_vec2() - 2.0 * c.p2.to_vec2() + c.p3.to_vec2()).hypot();
+            6.0 * first.max(second)
+        }
+    };
+    // A chord over a step h of the parameter leaves the curve by at most h^2 max|B''| / 8.
+    let lines = (bend / (8.0 * tolerance))
+        .sqrt()
+        .ceil()
+        .clamp(1.0, MAX_LINES);
+    for k in 1..floor_index(lines) {
+        #[expect(clippy::cast_precision_loss, reason = "at most MAX_LINES")]
+        let t = k as f64 / lines;
+        points.push(segment.eval(t));
+    }
+    points.push(segment.end());
+}
+
+/// One polyline a contour.
+pub(crate) fn flatten(outline: &BezPath, tolerance: f64) -> Vec<Polyline> {
+    let mut contours = Vec::new();
+    let mut points: Polyline = Vec::new();
+    let elements = outline.elements();
+    for (i, element) in elements.iter().enumerate() {
+        match element {
+            PathEl::MoveTo(p) => {
+                push_contour(&mut contours, &mut points);
+                points.push(*p);
+            }
+            PathEl::ClosePath => {
+                let first = points.first().copied();
+                if first != points.last().copied() {
+                    points.extend(first);
+                }
+            }
+            _ => {
+                if let Some(segment) = outline.get_seg(i) {
+                    flatten_segment(segment, tolerance, &mut points);
+                }
+            }
+        }
+    }
+    push_contour(&mut contours, &mut points);
+    contours
+}
+
+fn push_contour(contours: &mut Vec<Polyline>, points: &mut Polyline) {
+    if points.len() > 1 {
+        contours.push(std::mem::take(points));
+    } else {
+        points.clear();
+    }
+}
+
+/// The part of `line` inside `window` (Liang and Barsky 1984), `None` when there is none.
+pub(crate) fn clip_line(line: Line, window: Rect) -> Option<Line> {
+    let d = line.p1 - line.p0;
+    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+    for (p, q) in [
+        (-d.x, line.p0.x - window.x0),
+        (d.x, window.x1 - line.p0.x),
+        (-d.y, line.p0.y - window.y0),
+        (d.y, window.y1 - line.p0.y),
+    ] {
+        if p == 0.0 {
+            if q < 0.0 {
+                return None;
+            }
+        } else if p < 0.0 {
+            enter = enter.max(q / p);
+        } else {
+            leave = leave.min(q / p);
+        }
+    }
+    if enter > leave {
+        return None;
+    }
+    // The ends stay bit-exact where nothing is cut, so that runs join again.
+    let at = |t: f64| match t {
+        0.0 => line.p0,
+        1.0 => line.p1,
+        _ => line.p0 + t * d,
+    };
+    Some(Line::new(at(enter), at(leave)))
+}

@@ -1,0 +1,309 @@
+//! Winding numbers of Bezier outlines, watertight: every point of the plane gets the winding of
+//! some outline within rounding of the true one, and neighbouring segments never disagree.
+//!
+//! Segments are cut at their extrema in y. A monotone piece meets the horizontal line through `y`
+//! exactly when `y_min <= y < y_max`, and pieces that follow each other share the bit-exact y.
+
+use kurbo::{BezPath, ParamCurve, PathSeg, Point, Rect};
+
+use super::floor_index;
+use crate::drawing::FillRule;
+
+/// Most rows a [`Region`] sorts its pieces into; bounds memory for tall thin drawings.
+const MAX_ROWS: f64 = 4096.0;
+
+/// A piece of a segment along which y only grows or only falls.
+#[derive(Clone, Copy, Debug)]
+struct Monotone {
+    curve: PathSeg,
+    y_min: f64,
+    y_max: f64,
+    x_min: f64,
+    x_max: f64,
+    /// +1 where the outline runs towards growing y, -1 where it runs back.
+    delta: i32,
+}
+
+impl Monotone {
+    fn crosses(&self, y: f64) -> bool {
+        self.y_min <= y && y < self.y_max
+    }
+
+    /// Where the piece meets the horizontal line through `y`; [`Self::crosses`] must hold.
+    fn x_at(&self, y: f64) -> f64 {
+        let x = match self.curve {
+            PathSeg::Line(l) => l.p0.x + (y - l.p0.y) / (l.p1.y - l.p0.y) * (l.p1.x - l.p0.x),
+            PathSeg::Quad(q) => {
+                let c = power_basis([q.p0, q.p1, q.p1, q.p2], 2);
+                evaluate(c.0, self.parameter_at(c.1, y))
+            }
+            PathSeg::Cubic(k) => {
+                let c = power_basis([k.p0, k.p1, k.p2, k.p3], 3);
+                evaluate(c.0, self.parameter_at(c.1, y))
+            }
+        };
+        x.clamp(self.x_min, self.x_max)
+    }
+
+    /// Newton's method kept inside a shrinking bracket.
+    fn parameter_at(&self, c: [f64; 4], y: f64) -> f64 {
+        let sign = f64::from(self.delta);
+        let (mut low, mut high) = (0.0_f64, 1.0_f64);
+        let mut t = (y - self.y_min) / (self.y_max - self.y_min);
+        if self.delta < 0 {
+            t = 1.0 - t;
+        }
+        for _ in 0..64 {
+            let error = sign * (evaluate(c, t) - y);
+            if error == 0.0 {
+                break;
+            }
+            if error > 0.0 {
+                high = t;
+            } else {
+                low = t;
+            }
+            let slope = sign * (c[1] + t * (2.0 * c[2] + t * 3.0 * c[3]));
+            let mut next = t - error / slope;
+            if !(next > low && next < high) {
+                next = 0.5 * (low + high);
+            }
+            if (next - t).abs() < 1e-16 {
+                break;
+            }
+            t = next;
+        }
+        t
+    }
+}
+
+/// Coefficients of `1, t, t^2, t^3` for x and y.
+fn power_basis(p: [Point; 4], degree: u32) -> ([f64; 4], [f64; 4]) {
+    let of = |a: f64, b: f64, c: f64, d: f64| {
+        if degree == 2 {
+            [a, 2.0 * (b - a), a - 2.0 * b + d, 0.0]
+        } else {
+            [
+                a,
+                3.0 * (b - a),
+                3.0 * (a - 2.0 * b + c),
+                d - a + 3.0 * (b - c),
+            ]
+        }
+    };
+    let [a, b, c, d] = p;
+    (of(a.x, b.x, c.x, d.x), of(a.y, b.y, c.y, d.y))
+}
+
+fn evaluate(c: [f64; 4], t: f64) -> f64 {
+    c[0] + t * (c[1] + t * (c[2] + t * c[3]))
+}
+
+/// A filled outline that answers inside tests.
+#[derive(Clone, Debug)]
+pub(crate) struct Region {
+    pieces: Vec<Monotone>,
+    rule: FillRule,
+    /// Box of the control points.
+    bounds: Rect,
+    rows_per_unit: f64,
+    /// `row_pieces[row_first[r]..row_first[r + 1]]` reach into row `r`.
+    row_first: Vec<usize>,
+    row_pieces: Vec<usize>,
+}
+
+impl Region {
+    /// Every contour of `outline` must be closed.
+    pub(crate) fn new(outline: &BezPath, rule: FillRule) -> Self {
+        let pieces: Vec<Monotone> = outline.segments().flat_map(monotone_pieces).collect();
+        let bounds = outline.control_box();
+        let height = bounds.height().max(f64::MIN_POSITIVE);
+        // About four references a piece: few rows where pieces are tall, many where they are short.
+        let heights: f64 = pieces.iter().map(|p| (p.y_max - p.y_min) / height).sum();
+        let rows = (4.0 * count(pieces.len()) / heights.max(1.0)).clamp(1.0, MAX_ROWS);
+        let mut region = Self {
+            pieces,
+            rule,
+            bounds,
+            rows_per_unit: rows.floor() / height,
+            row_first: Vec::new(),
+            row_pieces: Vec::new(),
+        };
+        region.sort_into_rows(floor_index(rows));
+        region
+    }
+
+    fn sort_into_rows(&mut self, rows: usize) {
+        let spans: Vec<(usize, usize)> = self
+            .pieces
+            .iter()
+            .map(|p| (self.row_of(p.y_min, rows), self.row_of(p.y_max, rows)))
+            .collect();
+        let mut first = vec![0; rows + 1];
+        for &(top, bottom) in &spans {
+            for row in top..=bottom {
+                first[row + 1] += 1;
+            }
+        }
+        for row in 0..rows {
+            first[row + 1] += first[row];
+        }
+        let mut next = first.clone();
+        self.row_pieces = vec![0; first[rows]];
+        for (piece, &(top, bottom)) in spans.iter().enumerate() {
+            for slot in &mut next[top..=bottom] {
+                self.row_pieces[*slot] = piece;
+                *slot += 1;
+            }
+        }
+        self.row_first = first;
+    }
+
+    fn row_of(&self, y: f64, rows: usize) -> usize {
+        floor_index((y - self.bounds.y0) * self.rows_per_unit).min(rows - 1)
+    }
+
+    fn pieces_at(&self, y: f64) -> impl Iterator<Item = &Monotone> {
+        let rows = self.row_first.len() - 1;
+        let inside = y >= self.bounds.y0 && y <= self.bounds.y1;
+        let row = self.row_of(y, rows);
+        let range = if inside {
+            self.row_first[row]..self.row_first[row + 1]
+        } else {
+            0..0
+        };
+        self.row_pieces[range]
+            .iter()
+            .map(|&piece| &self.pieces[piece])
+            .filter(move |piece| piece.crosses(y))
+    }
+
+    /// Box of the outline's control points.
+    pub(crate) fn bounds(&self) -> Rect {
+        self.bounds
+    }
+
+    /// Sum of the directions of the pieces to the left of `p`.
+    pub(crate) fn winding(&self, p: Point) -> i32 {
+        self.pieces_at(p.y)
+            .filter(|piece| p.x >= piece.x_max || (p.x >= piece.x_min && p.x >= piece.x_at(p.y)))
+            .map(|piece| piece.delta)
+            .sum()
+    }
+
+    /// Whether `p` is filled.
+    pub(crate) fn contains(&self, p: Point) -> bool {
+        self.rule.fills(self.winding(p))
+    }
+
+    /// Crossings of the horizontal line through `y` as `(x, winding to its right)`, sorted.
+    pub(crate) fn crossings(&self, y: f64) -> Vec<(f64, i32)> {
+        let mut row: Vec<(f64, i32)> = self
+            .pieces_at(y)
+            .map(|piece| (piece.x_at(y), piece.delta))
+            .collect();
+        row.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let mut winding = 0;
+        for crossing in &mut row {
+            winding += crossing.1;
+            crossing.1 = winding;
+        }
+        row
+    }
+
+    /// Whether a point with abscissa `x` on the line of `crossings` is filled.
+    pub(crate) fn fills_row(&self, crossings: &[(f64, i32)], x: f64) -> bool {
+        let right = crossings.partition_point(|crossing| crossing.0 <= x);
+        right > 0 && self.rule.fills(crossings[right - 1].1)
+    }
+}
+
+impl FillRule {
+    /// Whether a point of this winding is inside, SVG 2 sec. 13.3.2.
+    pub(crate) fn fills(self, winding: i32) -> bool {
+        match self {
+            Self::NonZero => winding != 0,
+            Self::EvenOdd => winding % 2 != 0,
+        }
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "counts stay far below 2^52")]
+fn count(n: usize) -> f64 {
+    n as f64
+}
+
+/// Cuts `segment` at its extrema in y and leaves out what is horizontal.
+fn monotone_pieces(segment: PathSeg) -> Vec<Monotone> {
+    let mut cuts = vec![0.0];
+    cuts.extend(y_extrema(&segment));
+    cuts.push(1.0);
+    let mut from = segment.start();
+    let mut pieces = Vec::with_capacity(cuts.len() - 1);
+    for pair in cuts.windows(2) {
+        let whole = pair[0] == 0.0 && pair[1] == 1.0;
+        let mut curve = if whole {
+            segment
+        } else {
+            segment.subsegment(pair[0]..pair[1])
+        };
+        let to = if pair[1] == 1.0 {
+            segment.end()
+        } else {
+            curve.end()
+        };
+        set_ends(&mut curve, from, to);
+        pieces.extend(monotone(curve));
+        from = to;
+    }
+    pieces
+}
+
+/// Invariant: consecutive pieces share the bit-exact point.
+fn set_ends(curve: &mut PathSeg, from: Point, to: Point) {
+    match curve {
+        PathSeg::Line(l) => (l.p0, l.p1) = (from, to),
+        PathSeg::Quad(q) => (q.p0, q.p2) = (from, to),
+        PathSeg::Cubic(c) => (c.p0, c.p3) = (from, to),
+    }
+}
+
+fn monotone(curve: PathSeg) -> Option<Monotone> {
+    let (y0, y1) = (curve.start().y, curve.end().y);
+    if y0 == y1 {
+        return None;
+    }
+    let control = match curve {
+        PathSeg::Line(l) => Rect::from_points(l.p0, l.p1),
+        PathSeg::Quad(q) => Rect::from_points(q.p0, q.p2).union_pt(q.p1),
+        PathSeg::Cubic(c) => Rect::from_points(c.p0, c.p3).union_pt(c.p1).union_pt(c.p2),
+    };
+    Some(Monotone {
+        curve,
+        y_min: y0.min(y1),
+        y_max: y0.max(y1),
+        x_min: control.x0,
+        x_max: control.x1,
+        delta: if y1 > y0 { 1 } else { -1 },
+    })
+}
+
+/// Parameters in (0, 1) where y turns, ascending.
+fn y_extrema(segment: &PathSeg) -> Vec<f64> {
+    let mut roots: Vec<f64> = match segment {
+        PathSeg::Line(_) => Vec::new(),
+        PathSeg::Quad(q) => {
+            let (a, b) = (q.p1.y - q.p0.y, q.p2.y - q.p1.y);
+            vec![a / (a - b)]
+        }
+        PathSeg::Cubic(c) => {
+            let d = [c.p1.y - c.p0.y, c.p2.y - c.p1.y, c.p3.y - c.p2.y];
+            kurbo::common::solve_quadratic(d[0], 2.0 * (d[1] - d[0]), d[0] - 2.0 * d[1] + d[2])
+                .to_vec()
+        }
+    };
+    roots.retain(|t| *t > 0.0 && *t < 1.0);
+    roots.sort_unstable_by(f64::total_cmp);
+    roots.dedup();
+    roots
+}

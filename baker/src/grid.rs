@@ -1,0 +1,146 @@
+//! The cell grid and the lattice of MSDF texels: which numbers, and how the canvas lies on them.
+
+use kurbo::{Affine, Rect};
+use vtex_format::Grid;
+
+use crate::geometry::floor_index;
+
+/// Texels along a cell unless the grid would leave [`MIN_CELLS`]..=[`MAX_CELLS`]. Measured on the
+/// Tiger: fewer texels repeat more tile borders, more texels list more shapes a sample.
+const TEXELS_PER_CELL: u32 = 8;
+/// Cells along the longer side of the smallest grid.
+const MIN_CELLS: u32 = 16;
+/// Cells along the longer side of the largest grid: 1 MiB of cell words when square.
+const MAX_CELLS: u32 = 512;
+/// Where the canvas' corner lies in the first cell. An irrational-looking fraction keeps edges at
+/// round coordinates off the lattice lines, where they would lie in two rows of cells.
+const LATTICE_OFFSET: [f32; 2] = [0.381_966, 0.276_393_2];
+
+/// The lattice of MSDF texel corners. Its unit is one step; a cell is
+/// `texels_per_cell` steps wide. The plane's origin is the corner of cell (0, 0).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lattice {
+    /// As stored.
+    pub(crate) grid: Grid,
+    /// Canvas space to lattice.
+    pub(crate) lattice_from_canvas: Affine,
+    /// The canvas on the lattice.
+    pub(crate) canvas: Rect,
+}
+
+impl Lattice {
+    /// Cells are square in user units, [`TEXELS_PER_CELL`] of `msdf_size` texels wide.
+    pub(crate) fn new(canvas_size: [f64; 2], msdf_size: u32) -> Self {
+        let target = std::env::var("TPC").map_or(TEXELS_PER_CELL, |v| v.parse().unwrap());
+        let cells = msdf_size.div_ceil(target).clamp(MIN_CELLS, MAX_CELLS);
+        let texels_per_cell = msdf_size.div_ceil(cells).clamp(1, 64);
+        let longer = canvas_size[0].max(canvas_size[1]);
+        let scale = canvas_size.map(|side| to_f32(side / longer * f64::from(cells)));
+        // Exactly the evaluator's arithmetic at uv = 1, the largest it asks for.
+        let size_cells = [0, 1].map(|axis| to_cells((scale[axis] + LATTICE_OFFSET[axis]).floor()));
+        let grid = Grid {
+            size_cells,
+            cell_from_uv_scale: scale,
+            cell_from_uv_offset: LATTICE_OFFSET,
+            texels_per_cell,
+        };
+        // The stored f32 numbers, not the ideal ones, place the geometry.
+        let n = f64::from(texels_per_cell);
+        let [sx, sy] = scale.map(|s| f64::from(s) * n);
+        let [ox, oy] = LATTICE_OFFSET.map(|o| f64::from(o) * n);
+        Self {
+            grid,
+            lattice_from_canvas: Affine::new([
+                sx / canvas_size[0],
+                0.0,
+                0.0,
+                sy / canvas_size[1],
+                ox,
+                oy,
+            ]),
+            canvas: Rect::new(ox, oy, ox + sx, oy + sy),
+        }
+    }
+
+    /// Cell side in steps.
+    pub(crate) fn cell_steps(&self) -> f64 {
+        f64::from(self.grid.texels_per_cell)
+    }
+
+    /// Lattice steps along the canvas' longer side.
+    pub(crate) fn longer_steps(&self) -> f64 {
+        self.canvas.width().max(self.canvas.height())
+    }
+
+    /// Number of cells.
+    pub(crate) fn cell_count(&self) -> usize {
+        self.grid.size_cells[0] as usize * self.grid.size_cells[1] as usize
+    }
+
+    /// Columns `[first, last]` and rows `[first, last]` of the cells that `area`, in steps, meets;
+    /// `None` when it lies beside the grid.
+    pub(crate) fn cells_in(&self, area: Rect) -> Option<[[u32; 2]; 2]> {
+        let n = self.cell_steps();
+        let axis = |low: f64, high: f64, size: u32| {
+            let end = f64::from(size);
+            let (low, high) = (low / n, high / n);
+            let meets = low < end && high >= 0.0;
+            meets.then(|| [low, high].map(|x| to_cells_f64(x.clamp(0.0, end - 1.0))))
+        };
+        let columns = axis(area.x0, area.x1, self.grid.size_cells[0])?;
+        let rows = axis(area.y0, area.y1, self.grid.size_cells[1])?;
+        Some([columns, rows])
+    }
+
+    /// Box of a cell in steps.
+    pub(crate) fn cell_rect(&self, column: u32, row: u32) -> Rect {
+        let n = self.cell_steps();
+        let (x, y) = (f64::from(column) * n, f64::from(row) * n);
+        Rect::new(x, y, x + n, y + n)
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the grid is stored in f32 and everything follows the stored numbers"
+)]
+fn to_f32(x: f64) -> f32 {
+    x as f32
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "at most MAX_CELLS and not negative"
+)]
+fn to_cells(x: f32) -> u32 {
+    x as u32 + 1
+}
+
+fn to_cells_f64(x: f64) -> u32 {
+    u32::try_from(floor_index(x)).unwrap_or(u32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Lattice;
+
+    #[test]
+    fn every_uv_lies_in_a_cell_and_offset_is_a_fraction() {
+        for size in [[1.0, 1.0], [300.0, 17.0], [1e-3, 5e4], [640.0, 480.0]] {
+            for msdf_size in [1, 63, 64, 512, 1000, 4096] {
+                let grid = Lattice::new(size, msdf_size).grid;
+                for axis in 0..2 {
+                    let last =
+                        1.0_f32 * grid.cell_from_uv_scale[axis] + grid.cell_from_uv_offset[axis];
+                    assert!(last.floor() < grid.size_cells[axis] as f32, "{grid:?}");
+                    assert!(
+                        grid.cell_from_uv_offset[axis] >= 0.0
+                            && grid.cell_from_uv_offset[axis] < 1.0
+                    );
+                }
+                assert!((1..=64).contains(&grid.texels_per_cell));
+            }
+        }
+    }
+}

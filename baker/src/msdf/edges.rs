@@ -1,0 +1,227 @@
+//! Coloured edges of an outline: fdsm's "simple" colouring on segments that its distances are
+//! sound for.
+
+use fdsm::{
+    bezier::{Order, Segment},
+    color::Color,
+    shape::{ColoredContour, ColoredSegment, Contour},
+};
+use kurbo::{
+    BezPath, CubicBez, Line, ParamCurve, ParamCurveArclen, PathEl, PathSeg, Point, QuadBez, Shape,
+};
+use nalgebra::Point2;
+
+/// Segments and handles shorter than this many texels are noise to a distance field: their
+/// direction decides a sign far beyond their size. They are collapsed.
+const COLLAPSE_TEXELS: f64 = 0.05;
+/// Sine of the smallest turn that counts as a corner, msdfgen's default of 3 rad.
+const CORNER_SINE: f64 = 0.14;
+/// How far quadratics may leave the cubic they stand for, in texels: a quarter of what a stored
+/// byte resolves. fdsm measures quadratics in closed form and cubics by 20 Newton steps.
+const QUAD_TOLERANCE_TEXELS: f64 = 4e-3;
+/// How far [`Edge::lines`] may leave their segment, in texels.
+const LINE_TOLERANCE_TEXELS: f64 = 0.02;
+
+/// One coloured segment in lattice steps.
+#[derive(Clone, Debug)]
+pub(crate) struct Edge {
+    /// A line or a quadratic.
+    pub(crate) segment: ColoredSegment,
+}
+
+impl Edge {
+    /// The same as kurbo has it.
+    pub(crate) fn curve(&self) -> PathSeg {
+        let s = &self.segment.segment;
+        let p = |i| to_kurbo(s.control_point(i));
+        match s.order() {
+            Order::Linear => Line::new(p(0), p(1)).into(),
+            Order::Quadratic => QuadBez::new(p(0), p(1), p(2)).into(),
+            Order::Cubic => CubicBez::new(p(0), p(1), p(2), p(3)).into(),
+        }
+    }
+
+    /// Straight lines along the edge, none longer than `longest`.
+    pub(crate) fn lines(&self, longest: f64) -> Vec<Line> {
+        let mut lines = Vec::new();
+        let mut points = Vec::new();
+        let mut from = to_kurbo(self.segment.segment.start());
+        crate::geometry::flatten_segment(self.curve(), LINE_TOLERANCE_TEXELS, &mut points);
+        for to in points {
+            let pieces = ((to - from).hypot() / longest).ceil().max(1.0);
+            let start = from;
+            for k in 1..=crate::geometry::floor_index(pieces) {
+                #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
+                let next = start.lerp(to, k as f64 / pieces);
+                lines.push(Line::new(from, next));
+                from = next;
+            }
+        }
+        lines
+    }
+}
+
+/// How far the edges may lie from the outline they come from, in steps.
+pub(crate) const EDGE_ERROR_TEXELS: f64 =
+    2.0 * COLLAPSE_TEXELS + QUAD_TOLERANCE_TEXELS + LINE_TOLERANCE_TEXELS;
+
+/// Edges of `outline`, in lattice steps, turned so that fdsm's distances are positive inside.
+pub(crate) fn edges_of(outline: &BezPath) -> Vec<Edge> {
+    // fdsm: positive to the left of the direction of travel, y down.
+    let turned = if outline.area() > 0.0 {
+        outline.reverse_subpaths()
+    } else {
+        outline.clone()
+    };
+    let mut edges = Vec::new();
+    for contour in split_contours(&turned) {
+        let segments = collapse(&contour);
+        // Two segments can enclose something only when one of them is curved.
+        if segments.len() < 2 {
+            continue;
+        }
+        let contour = Contour {
+            segments: segments.iter().map(to_fdsm).collect(),
+        };
+        let colored = ColoredContour::edge_coloring_simple(contour, CORNER_SINE, 0);
+        for segment in colored.segments {
+            push_quads(segment, &mut edges);
+        }
+    }
+    edges
+}
+
+fn split_contours(outline: &BezPath) -> Vec<Vec<PathSeg>> {
+    let mut contours = Vec::new();
+    let mut current = Vec::new();
+    for (i, element) in outline.elements().iter().enumerate() {
+        if matches!(element, PathEl::MoveTo(_)) && !current.is_empty() {
+            contours.push(std::mem::take(&mut current));
+        }
+        current.extend(outline.get_seg(i));
+    }
+    if !current.is_empty() {
+        contours.push(current);
+    }
+    contours
+}
+
+/// The contour without segments shorter than [`COLLAPSE_TEXELS`]; neighbours close the gaps.
+fn collapse(contour: &[PathSeg]) -> Vec<PathSeg> {
+    let mut kept: Vec<PathSeg> = Vec::with_capacity(contour.len());
+    let Some(start) = contour.first().map(ParamCurve::start) else {
+        return kept;
+    };
+    let mut from = start;
+    for segment in contour {
+        let mut moved = *segment;
+        set_start(&mut moved, from);
+        if control_length(&moved) >= COLLAPSE_TEXELS {
+            kept.push(moved);
+            from = moved.end();
+        }
+    }
+    if let Some(last) = kept.last_mut() {
+        set_end(last, start);
+    }
+    kept.retain(|segment| control_length(segment) > 0.0);
+    kept.into_iter().map(mend_handles).collect()
+}
+
+fn control_length(segment: &PathSeg) -> f64 {
+    match segment {
+        PathSeg::Line(l) => l.arclen(1.0),
+        PathSeg::Quad(q) => (q.p1 - q.p0).hypot() + (q.p2 - q.p1).hypot(),
+        PathSeg::Cubic(c) => (c.p1 - c.p0).hypot() + (c.p2 - c.p1).hypot() + (c.p3 - c.p2).hypot(),
+    }
+}
+
+fn set_start(segment: &mut PathSeg, p: Point) {
+    match segment {
+        PathSeg::Line(l) => l.p0 = p,
+        PathSeg::Quad(q) => q.p0 = p,
+        PathSeg::Cubic(c) => c.p0 = p,
+    }
+}
+
+fn set_end(segment: &mut PathSeg, p: Point) {
+    match segment {
+        PathSeg::Line(l) => l.p1 = p,
+        PathSeg::Quad(q) => q.p2 = p,
+        PathSeg::Cubic(c) => c.p3 = p,
+    }
+}
+
+/// Turns handles shorter than [`COLLAPSE_TEXELS`] towards the next control point, so that the
+/// direction at the end is the direction in which the curve really leaves.
+fn mend_handles(segment: PathSeg) -> PathSeg {
+    match segment {
+        PathSeg::Line(_) => segment,
+        PathSeg::Quad(q) => {
+            let short = (q.p1 - q.p0).hypot().min((q.p2 - q.p1).hypot()) < COLLAPSE_TEXELS;
+            if short {
+                Line::new(q.p0, q.p2).into()
+            } else {
+                segment
+            }
+        }
+        PathSeg::Cubic(mut c) => {
+            let short = [(c.p1 - c.p0).hypot(), (c.p3 - c.p2).hypot()]
+                .map(|length| length < COLLAPSE_TEXELS);
+            match short {
+                [true, true] => return Line::new(c.p0, c.p3).into(),
+                [true, false] => c.p1 = towards(c.p0, c.p2),
+                [false, true] => c.p2 = towards(c.p3, c.p1),
+                [false, false] => {}
+            }
+            c.into()
+        }
+    }
+}
+
+fn towards(from: Point, to: Point) -> Point {
+    let d = to - from;
+    let length = d.hypot();
+    if length > COLLAPSE_TEXELS {
+        from + d * (0.5 * COLLAPSE_TEXELS / length)
+    } else {
+        from.lerp(to, 0.5)
+    }
+}
+
+fn push_quads(colored: ColoredSegment, edges: &mut Vec<Edge>) {
+    let color: Color = colored.color;
+    let edge = Edge { segment: colored };
+    match edge.curve() {
+        PathSeg::Cubic(cubic) => {
+            let quads = cubic.to_quads(QUAD_TOLERANCE_TEXELS);
+            edges.extend(quads.map(|(_, _, quad)| Edge {
+                segment: ColoredSegment {
+                    segment: to_fdsm(&quad.into()),
+                    color,
+                },
+            }));
+        }
+        _ => edges.push(edge),
+    }
+}
+
+fn to_fdsm(segment: &PathSeg) -> Segment {
+    let p = |p: Point| Point2::new(p.x, p.y);
+    match segment {
+        PathSeg::Line(l) => Segment::line(p(l.p0), p(l.p1)),
+        // A quadratic without bend has no cubic to solve for its nearest point.
+        PathSeg::Quad(q) if is_straight(q) => Segment::line(p(q.p0), p(q.p2)),
+        PathSeg::Quad(q) => Segment::quad(p(q.p0), p(q.p1), p(q.p2)),
+        PathSeg::Cubic(c) => Segment::cubic(p(c.p0), p(c.p1), p(c.p2), p(c.p3)),
+    }
+}
+
+fn is_straight(q: &QuadBez) -> bool {
+    let bend = (q.p0.to_vec2() - 2.0 * q.p1.to_vec2() + q.p2.to_vec2()).hypot();
+    bend < QUAD_TOLERANCE_TEXELS
+}
+
+fn to_kurbo(p: Point2<f64>) -> Point {
+    Point::new(p.x, p.y)
+}

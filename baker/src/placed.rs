@@ -1,0 +1,81 @@
+//! What is drawn, placed on the lattice of MSDF texels.
+
+use kurbo::{BezPath, Rect, Shape as _};
+use rayon::prelude::*;
+
+use crate::{
+    drawing::{Drawing, FillRule, Item},
+    geometry::Region,
+    grid::Lattice,
+    prepare::{Note, prepare},
+};
+
+/// One item in lattice steps. Its index is its place in the painter's order.
+#[derive(Clone, Debug)]
+pub(crate) struct Placed {
+    /// Closed contours.
+    pub(crate) outline: BezPath,
+    /// Inside test of the outline.
+    pub(crate) region: Region,
+    /// How the outline decides inside.
+    pub(crate) rule: FillRule,
+    /// Shape or patch.
+    pub(crate) kind: PlacedKind,
+}
+
+/// What covers a [`Placed`] outline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum PlacedKind {
+    /// A solid colour: straight alpha, sRGB-encoded.
+    Shape {
+        /// The colour.
+        color: [f32; 4],
+        /// What preparation did.
+        note: Note,
+    },
+    /// A raster image in a rectangle.
+    Patch,
+}
+
+impl Placed {
+    /// An outline in lattice steps.
+    pub(crate) fn new(outline: BezPath, rule: FillRule, kind: PlacedKind) -> Self {
+        Self {
+            region: Region::new(&outline, rule),
+            outline,
+            rule,
+            kind,
+        }
+    }
+
+    /// Whether it has distance fields.
+    pub(crate) fn is_shape(&self) -> bool {
+        matches!(self.kind, PlacedKind::Shape { .. })
+    }
+
+    /// Box in steps.
+    pub(crate) fn bounds(&self) -> Rect {
+        self.region.bounds()
+    }
+}
+
+/// Prepares and places every item of `drawing`.
+pub(crate) fn place(drawing: &Drawing, lattice: &Lattice) -> Vec<Placed> {
+    let longer = drawing.canvas_size[0].max(drawing.canvas_size[1]);
+    let place_one = |item: &Item| match item {
+        Item::Shape(shape) => {
+            let prepared = prepare(shape, longer);
+            let kind = PlacedKind::Shape {
+                color: shape.color,
+                note: prepared.note,
+            };
+            let outline = lattice.lattice_from_canvas * prepared.outline;
+            Placed::new(outline, prepared.rule, kind)
+        }
+        Item::Patch(patch) => {
+            let outline = lattice.lattice_from_canvas * patch.rect.to_path(0.1);
+            Placed::new(outline, FillRule::NonZero, PlacedKind::Patch)
+        }
+    };
+    drawing.items.par_iter().map(place_one).collect()
+}

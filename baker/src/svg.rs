@@ -1,0 +1,51 @@
+//! SVG to a [`Plan`]: what is geometry already, and what resvg has to paint.
+
+mod cost;
+mod fonts;
+mod images;
+mod path;
+mod source;
+mod walk;
+
+use kurbo::{Affine, Rect};
+
+use crate::drawing::Shape;
+
+pub(crate) use cost::Cost;
+pub(crate) use source::parse;
+pub(crate) use walk::{WalkOptions, plan};
+
+/// A tree sorted into shapes and subtrees to rasterise, in painter's order.
+#[derive(Debug)]
+pub(crate) struct Plan<'a> {
+    /// Width and height of the canvas in user units.
+    pub(crate) canvas_size: [f64; 2],
+    /// Back to front.
+    pub(crate) steps: Vec<Step<'a>>,
+}
+
+/// One thing to paint.
+#[derive(Debug)]
+pub(crate) enum Step<'a> {
+    /// Geometry with a solid colour.
+    Shape(Shape),
+    /// A subtree for resvg.
+    Raster(Subtree<'a>),
+}
+
+/// A node that is painted as a whole by resvg.
+#[derive(Debug)]
+pub(crate) struct Subtree<'a> {
+    /// The node.
+    pub(crate) node: &'a usvg::Node,
+    /// From the space of the node's parent.
+    pub(crate) canvas_from_parent: Affine,
+    /// What it may touch, in canvas space; not empty, may reach outside the canvas.
+    pub(crate) bounds: Rect,
+    /// Whether the result depends on what lies behind it.
+    pub(crate) blends: bool,
+    /// Why it is not geometry.
+    pub(crate) feature: &'static str,
+    /// `id` of the element or its nearest named ancestor, may be empty.
+    pub(crate) element: String,
+}

@@ -1,0 +1,185 @@
+//! Bytes to a usvg tree: budgets first, then parsing with hooks that touch no file.
+
+use std::io::Read;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use crate::svg::{fonts, images};
+use crate::warning::Warnings;
+use crate::{BakeError, Resources};
+
+/// Bytes of SVG text, packed or not. The largest real drawings (maps) are about 30 MiB; a gzip
+/// stream that unpacks to more is refused while it is read.
+const MAX_SVG_BYTES: usize = 64 << 20;
+/// Nodes of the parsed tree, after `use` is expanded. usvg has a bound of its own as well.
+const MAX_NODES: usize = 1 << 20;
+/// Path verbs of the parsed tree.
+const MAX_SEGMENTS: usize = 1 << 22;
+/// Longer side of the canvas over the shorter one. Beyond it mip 0 has no texels for a side.
+const MAX_ASPECT: f32 = 4096.0;
+
+const GZIP_MAGIC: [u8; 2] = [0x1f, 0x8b];
+
+/// Parses an SVG or SVGZ at 96 dpi with the given fonts.
+pub(crate) fn parse(
+    svg: &[u8],
+    resources: &Resources,
+    warnings: &Warnings,
+) -> Result<usvg::Tree, BakeError> {
+    let unpacked;
+    let bytes = if svg.starts_with(&GZIP_MAGIC) {
+        unpacked = gunzip(svg)?;
+        unpacked.as_slice()
+    } else {
+        svg
+    };
+    if bytes.len() > MAX_SVG_BYTES {
+        return Err(too_many_bytes());
+    }
+    let text = std::str::from_utf8(bytes)
+        .map_err(|e| BakeError::Svg(format!("not UTF-8 text (byte {})", e.valid_up_to())))?;
+    if text.trim_start_matches('\u{feff}').trim().is_empty() {
+        return Err(BakeError::Svg("the input is empty".to_owned()));
+    }
+    let options = usvg::Options {
+        dpi: 96.0,
+        image_href_resolver: images::resolver(warnings),
+        font_resolver: fonts::resolver(warnings),
+        fontdb: resources.fonts.clone(),
+        ..usvg::Options::default()
+    };
+    // usvg is not known to panic, but it reads files nobody vouches for.
+    let tree = catch_unwind(AssertUnwindSafe(|| usvg::Tree::from_str(text, &options)))
+        .map_err(|_| BakeError::Svg("the SVG parser failed".to_owned()))?
+        .map_err(|e| bake_error(&e))?;
+    check_size(&tree)?;
+    Ok(tree)
+}
+
+fn gunzip(svgz: &[u8]) -> Result<Vec<u8>, BakeError> {
+    let mut bytes = Vec::new();
+    let bound = MAX_SVG_BYTES as u64 + 1;
+    flate2::read::GzDecoder::new(svgz)
+        .take(bound)
+        .read_to_end(&mut bytes)
+        .map_err(|e| BakeError::Svg(format!("broken gzip stream: {e}")))?;
+    Ok(bytes)
+}
+
+fn too_many_bytes() -> BakeError {
+    BakeError::Limit(format!(
+        "the SVG text is larger than {} MiB",
+        MAX_SVG_BYTES >> 20
+    ))
+}
+
+fn bake_error(error: &usvg::Error) -> BakeError {
+    match error {
+        usvg::Error::ElementsLimitReached => {
+            BakeError::Limit("the SVG has too many or too deeply nested elements".to_owned())
+        }
+        usvg::Error::InvalidSize => {
+            BakeError::Svg("width, height and viewBox must be positive".to_owned())
+        }
+        usvg::Error::ParsingFailed(e) => BakeError::Svg(format!("XML: {e}")),
+        other => BakeError::Svg(other.to_string()),
+    }
+}
+
+fn check_size(tree: &usvg::Tree) -> Result<(), BakeError> {
+    let (width, height) = (tree.size().width(), tree.size().height());
+    if !(width.is_finite() && height.is_finite() && width > 0.0 && height > 0.0) {
+        return Err(BakeError::Svg(format!("canvas of {width} x {height}")));
+    }
+    if width.max(height) > MAX_ASPECT * width.min(height) {
+        return Err(BakeError::Limit(format!(
+            "canvas of {width} x {height} is longer than {MAX_ASPECT}:1"
+        )));
+    }
+    let mut census = Census::default();
+    census.count(tree.root());
+    if census.nodes > MAX_NODES {
+        return Err(BakeError::Limit(format!("more than {MAX_NODES} nodes")));
+    }
+    if census.segments > MAX_SEGMENTS {
+        return Err(BakeError::Limit(format!(
+            "more than {MAX_SEGMENTS} path segments"
+        )));
+    }
+    Ok(())
+}
+
+/// Size of a tree, counted up to just past the limits.
+#[derive(Default)]
+struct Census {
+    nodes: usize,
+    segments: usize,
+}
+
+impl Census {
+    fn count(&mut self, group: &usvg::Group) {
+        for node in group.children() {
+            if self.nodes > MAX_NODES || self.segments > MAX_SEGMENTS {
+                return;
+            }
+            self.nodes += 1;
+            match node {
+                usvg::Node::Group(child) => self.count(child),
+                usvg::Node::Path(path) => self.segments += path.data().verbs().len(),
+                usvg::Node::Image(_) | usvg::Node::Text(_) => {}
+            }
+            // Clip paths, masks, patterns, flattened text and nested images.
+            node.subroots(|root| self.count(root));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn error_of(svg: &[u8]) -> String {
+        let warnings = Warnings::default();
+        parse(svg, &Resources::default(), &warnings)
+            .unwrap_err()
+            .to_string()
+    }
+
+    #[test]
+    fn faults_are_named_in_one_line() {
+        let svg = |head: &str| format!("<svg xmlns='http://www.w3.org/2000/svg' {head}/>");
+        let cases: [(Vec<u8>, &str); 9] = [
+            (b"".to_vec(), "the input is empty"),
+            (b" \n\t".to_vec(), "the input is empty"),
+            (b"\x89PNG\r\n".to_vec(), "not UTF-8"),
+            (b"hello".to_vec(), "XML"),
+            (b"<html/>".to_vec(), "not a usable SVG"),
+            (
+                b"<svg xmlns='http://www.w3.org/2000/svg'><g".to_vec(),
+                "XML",
+            ),
+            (b"\x1f\x8b\x08\x00".to_vec(), "gzip"),
+            (svg("width='0' height='5'").into_bytes(), "must be positive"),
+            (
+                svg("width='100000' height='1'").into_bytes(),
+                "longer than 4096:1",
+            ),
+        ];
+        for (input, says) in cases {
+            let error = error_of(&input);
+            assert!(error.contains(says), "{error:?} should say {says:?}");
+            assert!(!error.contains('\n'), "{error:?} is more than a line");
+        }
+    }
+
+    #[test]
+    fn a_gzip_bomb_stops_at_the_limit() {
+        use std::io::Write;
+        let mut packer = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+        let spaces = vec![b' '; 1 << 20];
+        for _ in 0..80 {
+            packer.write_all(&spaces).unwrap();
+        }
+        let bomb = packer.finish().unwrap();
+        assert!(error_of(&bomb).contains("larger than 64 MiB"));
+    }
+}

@@ -1,0 +1,9 @@
+//! What the crate's own tests share: drawings, a brute-force painter and a plain evaluator.
+
+mod drawings;
+mod evaluator;
+mod random;
+
+pub(crate) use drawings::{corpus_file, drawing_of, shape};
+pub(crate) use evaluator::{Evaluator, paint_exactly, psnr, render, write_png};
+pub(crate) use random::Random;

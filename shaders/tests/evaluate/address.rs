@@ -1,0 +1,101 @@
+//! Address modes and texture matrix.
+
+use vtex_format::{AddressMode, VtexFile};
+use vtex_shaders::cpu::Sampler;
+use vtex_shaders::{PackOptions, pack};
+
+use crate::builder::{row_of, set_solid};
+use crate::formula;
+
+/// Four cells of grey 0.1, 0.2, 0.3, 0.4.
+fn steps() -> VtexFile {
+    let mut file = row_of(4);
+    for cell in 0..4 {
+        let c = 0.1 * (cell + 1) as f32;
+        set_solid(&mut file, cell, [c, c, c, 1.0]);
+    }
+    file
+}
+
+/// Which of the four cells is seen at `uv`; `None` for nothing.
+fn seen(options: &PackOptions, uv: [f32; 2]) -> Option<usize> {
+    let words = pack(&steps(), options);
+    let [r, _, _, a] = Sampler::new(&words).sample(uv, [0.0; 4]);
+    let encoded = formula::encode(f64::from(r)) * 10.0;
+    (a > 0.0).then(|| encoded.round() as usize - 1)
+}
+
+#[test]
+fn address_modes_follow_their_names() {
+    use AddressMode::{Border, Clamp, Mirror, Repeat};
+    let table = [
+        (Clamp, -0.1, Some(0)),
+        (Clamp, 7.0, Some(3)),
+        (Repeat, -0.1, Some(3)),
+        (Repeat, 1.3, Some(1)),
+        (Repeat, -3.9, Some(0)),
+        (Mirror, -0.1, Some(0)),
+        (Mirror, 1.1, Some(3)),
+        (Mirror, 1.9, Some(0)),
+        (Mirror, 2.3, Some(1)),
+        (Mirror, -1.2, Some(3)),
+        (Border, -0.001, None),
+        (Border, 1.001, None),
+        (Border, 1.0, Some(3)),
+        (Border, 0.3, Some(1)),
+    ];
+    for (mode, u, expected) in table {
+        let options = PackOptions {
+            address: Some([mode, Clamp]),
+            ..PackOptions::default()
+        };
+        assert_eq!(seen(&options, [u, 0.5]), expected, "{mode:?} at {u}");
+        // The same along v: only border tells rows of one cell apart.
+        let options = PackOptions {
+            address: Some([Clamp, mode]),
+            ..PackOptions::default()
+        };
+        let expected = expected.and(Some(1));
+        assert_eq!(
+            seen(&options, [0.3, u]),
+            expected,
+            "{mode:?} along v at {u}"
+        );
+    }
+}
+
+#[test]
+fn the_texture_matrix_comes_first() {
+    // u' = v, v' = u: a transposition, then a shift by a cell.
+    let options = PackOptions {
+        texture_matrix: Some([0.0, 1.0, 1.0, 0.0, 0.25, 0.0]),
+        ..PackOptions::default()
+    };
+    assert_eq!(seen(&options, [0.5, 0.1]), Some(1));
+    assert_eq!(seen(&options, [0.5, 0.6]), Some(3));
+    let matrix = PackOptions {
+        texture_matrix: Some([2.0, 0.0, 0.0, 1.0, 0.0, 0.0]),
+        address: Some([AddressMode::Repeat; 2]),
+        ..PackOptions::default()
+    };
+    assert_eq!(seen(&matrix, [0.65, 0.5]), Some(1), "1.3 repeats to 0.3");
+}
+
+#[test]
+fn the_footprint_goes_through_the_matrix() {
+    use crate::builder::{Cover, set_list};
+    let mut file = row_of(1);
+    set_list(&mut file, 0, &[(Cover::Edge(2.0), [1.0; 4])]);
+    let alpha = |scale: f32, u: f32, width: f32| {
+        let options = PackOptions {
+            filter: vtex_shaders::FilterMode::Footprint,
+            texture_matrix: Some([scale, 0.0, 0.0, scale, 0.0, 0.0]),
+            ..PackOptions::default()
+        };
+        let words = pack(&file, &options);
+        Sampler::new(&words).sample([u, 0.5], [width, 0.0, 0.0, width])[3]
+    };
+    let (plain, halved) = (alpha(1.0, 0.55, 0.4), alpha(0.5, 1.1, 0.8));
+    assert!((plain - halved).abs() < 1e-6, "{plain} and {halved}");
+    assert!(plain > 0.55 && plain < 0.75, "on the ramp: {plain}");
+}

@@ -1,0 +1,155 @@
+//! Small files built by hand: a grid of cells of unit scale, without a baker.
+
+use vtex_format::{
+    CellWord, Entry, EntryKind, Grid, Image, Meta, PaintRecord, SHADER_ABI, SamplerSettings,
+    ShaderBlob, SpecKey, VtexFile,
+};
+
+/// Lattice steps a cell.
+pub(crate) const TEXELS: u32 = 4;
+/// Full distance range in texels.
+pub(crate) const RANGE: f32 = 4.0;
+
+/// What a listed entry is made of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Cover {
+    Full,
+    /// A tile whose distance is the same everywhere, in texels.
+    Flat(f32),
+    /// A straight edge across the cell at `x` texels from its left; inside is to the right.
+    Edge(f32),
+}
+
+/// A file of `columns` cells in one row, all empty.
+pub(crate) fn row_of(columns: u32) -> VtexFile {
+    let meta = Meta {
+        canvas_size: [columns as f32, 1.0],
+        grid: Grid {
+            size_cells: [columns, 1],
+            cell_from_uv_scale: [columns as f32, 1.0],
+            cell_from_uv_offset: [0.0; 2],
+            texels_per_cell: TEXELS,
+        },
+        distance_range_texels: RANGE,
+        max_zoom: 1.0,
+        sampler: SamplerSettings::default(),
+    };
+    VtexFile {
+        meta,
+        spec: bytemuck::Zeroable::zeroed(),
+        shader: ShaderBlob {
+            abi: SHADER_ABI,
+            wgsl_fragment: String::new(),
+            batch_spirv: Vec::new(),
+        },
+        paints: Vec::new(),
+        shapes: Vec::new(),
+        layers: Vec::new(),
+        cells: vec![0; columns as usize],
+        entries: Vec::new(),
+        tiles: Vec::new(),
+        images: Vec::new(),
+        provenance: None,
+    }
+}
+
+/// A key that differs from the default only in what a test names.
+pub(crate) const fn key(features: u32) -> SpecKey {
+    SpecKey {
+        abi: SHADER_ABI,
+        features,
+        address_u: 0,
+        address_v: 0,
+        texels_per_cell: TEXELS,
+        max_entries: 8,
+        reserved: [0; 2],
+    }
+}
+
+pub(crate) fn paint(file: &mut VtexFile, color: [f32; 4]) -> u32 {
+    file.paints.push(PaintRecord::solid(color));
+    file.paints.len() as u32 - 1
+}
+
+pub(crate) fn set_solid(file: &mut VtexFile, cell: usize, color: [f32; 4]) {
+    let paint = paint(file, color);
+    file.cells[cell] = CellWord::Solid { paint }
+        .encode()
+        .expect("small indices fit");
+}
+
+/// Lists `stack`, front to back, in `cell`.
+pub(crate) fn set_list(file: &mut VtexFile, cell: usize, stack: &[(Cover, [f32; 4])]) {
+    let entries: Vec<Entry> = stack
+        .iter()
+        .map(|&(cover, color)| Entry {
+            kind: match cover {
+                Cover::Full => EntryKind::Full,
+                _ => EntryKind::Msdf,
+            },
+            last: false,
+            opaque: color[3] >= 1.0,
+            index: paint(file, color),
+            data: match cover {
+                Cover::Full => 0,
+                Cover::Flat(distance) => push_tile(file, |_, _| distance),
+                Cover::Edge(edge) => push_tile(file, |x, _| x - edge),
+            },
+        })
+        .collect();
+    push_entries(file, cell, &entries);
+}
+
+/// Lists `entries` in `cell`; the last is marked as such.
+pub(crate) fn push_entries(file: &mut VtexFile, cell: usize, entries: &[Entry]) {
+    let offset_words = file.entries.len() as u32;
+    file.cells[cell] = CellWord::List { offset_words }
+        .encode()
+        .expect("small indices fit");
+    for (i, entry) in entries.iter().enumerate() {
+        let last = i + 1 == entries.len();
+        file.entries.extend(
+            Entry { last, ..*entry }
+                .encode()
+                .expect("small indices fit"),
+        );
+    }
+}
+
+/// Adds a tile of equal channels from a distance in texels at texel coordinates.
+pub(crate) fn push_tile(file: &mut VtexFile, distance: impl Fn(f32, f32) -> f32) -> u32 {
+    let side = TEXELS + 1;
+    let index = file.tiles.len() as u32 / (4 * side * side);
+    for y in 0..side {
+        for x in 0..side {
+            let m = (distance(x as f32, y as f32) / RANGE + 0.5).clamp(0.0, 1.0);
+            let byte = (m * 255.0).round() as u8;
+            file.tiles.extend([byte, byte, byte, 255]);
+        }
+    }
+    index
+}
+
+/// The distance a tile of `Cover::Flat(distance)` really holds.
+pub(crate) fn stored(distance: f32) -> f64 {
+    let m = (distance / RANGE + 0.5).clamp(0.0, 1.0);
+    (f64::from((m * 255.0).round()) / 255.0 - 0.5) * f64::from(RANGE)
+}
+
+/// An image whose level `k` is filled with `texel(k, x, y)`.
+pub(crate) fn image(
+    rect_uv: [f32; 4],
+    size: [u32; 2],
+    texel: impl Fn(u32, u32, u32) -> [u8; 4],
+) -> Image {
+    let mips = (0..Image::level_count(size)).map(|level| {
+        let [width, height] = Image::level_size(size, level);
+        let rows = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        rows.flat_map(|(x, y)| texel(level, x, y)).collect()
+    });
+    Image {
+        rect_uv,
+        size,
+        mips: mips.collect(),
+    }
+}

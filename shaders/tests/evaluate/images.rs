@@ -1,0 +1,192 @@
+//! Raster mips and patches.
+
+use vtex_format::{AddressMode, Entry, EntryKind, Features, VtexFile};
+use vtex_shaders::cpu::Sampler;
+use vtex_shaders::{FilterMode, PackOptions, pack, spec_key};
+
+use crate::builder::{image, push_entries, row_of, set_solid};
+use crate::{FILTERS, check, formula, sample};
+
+const CANVAS: [f32; 4] = [0.0, 0.0, 1.0, 1.0];
+
+/// One white cell over a 16 x 16 chain whose level k is opaque grey of byte `200 - 40 k`.
+fn grey_levels() -> VtexFile {
+    let mut file = row_of(1);
+    set_solid(&mut file, 0, [1.0; 4]);
+    file.images.push(image(CANVAS, [16, 16], |level, _, _| {
+        let grey = 200 - 40 * level as u8;
+        [grey, grey, grey, 255]
+    }));
+    file
+}
+
+/// Linear light of level k, rounded to a half as packed.
+fn level_value(level: f64) -> f64 {
+    let value = |k: f64| formula::decode((200.0 - 40.0 * k) / 255.0);
+    let (k, f) = (level.floor(), level.fract());
+    value(k) * (1.0 - f) + value(k + 1.0) * f
+}
+
+#[test]
+fn minification_fades_from_cells_into_the_chain() {
+    let file = grey_levels();
+    for filter in FILTERS {
+        for i in 0..=60 {
+            let texels = 2.0_f64.powf(f64::from(i) / 10.0 - 2.0);
+            let lod = texels.log2();
+            let fade = (lod + 1.0).clamp(0.0, 1.0);
+            let chain = level_value(lod.clamp(0.0, 4.0));
+            let expected = 1.0 - fade + fade * chain;
+            let got = sample(&file, filter, 0.4, texels as f32 / 16.0);
+            check(got, [expected, expected, expected, 1.0], 1e-3);
+        }
+    }
+}
+
+#[test]
+fn no_step_between_footprints() {
+    let file = grey_levels();
+    let at = |i: u32| {
+        sample(
+            &file,
+            FilterMode::Footprint,
+            0.4,
+            0.01 * 1.002_f32.powi(i as i32),
+        )
+    };
+    for i in 0..3000 {
+        let (a, b) = (at(i)[0], at(i + 1)[0]);
+        assert!((a - b).abs() < 0.005, "a step from {a} to {b} at {i}");
+    }
+}
+
+#[test]
+fn texels_are_linear_light_with_centres_at_one_half() {
+    let mut file = row_of(1);
+    file.images.push(image(CANVAS, [4, 1], |_, x, _| {
+        [if x == 1 { 188 } else { 0 }, 0, 0, 255]
+    }));
+    let peak = formula::decode(188.0 / 255.0);
+    for (u, weight) in [
+        (0.375, 1.0),
+        (0.25, 0.5),
+        (0.125, 0.0),
+        (0.3125, 0.75),
+        (0.0, 0.0),
+    ] {
+        let got = sample(&file, FilterMode::Point, u, 0.25);
+        check(got, [weight * peak, 0.0, 0.0, 1.0], 1e-3);
+    }
+}
+
+#[test]
+fn the_chain_wraps_where_the_address_mode_repeats() {
+    let mut file = row_of(1);
+    file.images.push(image(CANVAS, [4, 4], |_, x, _| {
+        [0, if x == 0 { 255 } else { 0 }, 0, 255]
+    }));
+    for (mode, expected) in [
+        (AddressMode::Clamp, 0.0),
+        (AddressMode::Mirror, 0.0),
+        (AddressMode::Repeat, 0.5),
+    ] {
+        let options = PackOptions {
+            address: Some([mode; 2]),
+            ..PackOptions::default()
+        };
+        let words = pack(&file, &options);
+        let got = Sampler::new(&words).sample([0.999_999, 0.5], [0.25, 0.0, 0.0, 0.25]);
+        check(got, [0.0, expected, 0.0, 1.0], 1e-3);
+    }
+}
+
+/// A patch in the right half of the canvas over a grey ground.
+fn patched(alpha: u8) -> VtexFile {
+    let mut file = row_of(1);
+    let rect = [0.5, 0.0, 1.0, 1.0];
+    file.images
+        .push(image(rect, [8, 16], |_, _, _| [alpha / 2, 0, 0, alpha]));
+    let ground = crate::builder::paint(&mut file, [0.5, 0.5, 0.5, 1.0]);
+    let entry = |kind, opaque, index| Entry {
+        kind,
+        last: false,
+        opaque,
+        index,
+        data: 0,
+    };
+    let list = [
+        entry(EntryKind::Image, false, 0),
+        entry(EntryKind::Full, true, ground),
+    ];
+    push_entries(&mut file, 0, &list);
+    file
+}
+
+#[test]
+fn patches_composite_like_paints_inside_their_rectangle() {
+    let file = patched(255);
+    assert_eq!(
+        spec_key(&file).features & Features::MIPS,
+        0,
+        "a patch is no canvas chain"
+    );
+    for filter in FILTERS {
+        check(
+            sample(&file, filter, 0.3, 0.01),
+            formula::linear([0.5, 0.5, 0.5, 1.0]),
+            1e-5,
+        );
+        let opaque = [formula::decode(127.0 / 255.0), 0.0, 0.0, 1.0];
+        check(sample(&file, filter, 0.7, 0.01), opaque, 1e-3);
+    }
+    let file = patched(128);
+    // Stored: linear light, premultiplied, then encoded. Half transparent.
+    let a = 128.0 / 255.0;
+    let encoded = formula::encode(formula::decode(64.0 / 255.0) / a) * a;
+    let behind = 0.5 * (1.0 - a);
+    let expected = [encoded + behind, behind, behind].map(formula::decode);
+    for filter in FILTERS {
+        let got = sample(&file, filter, 0.7, 0.01);
+        check(got, [expected[0], expected[1], expected[2], 1.0], 1e-3);
+    }
+}
+
+#[test]
+fn a_mask_reads_the_alpha_of_texels() {
+    let mut file = patched(128);
+    file.entries.truncate(2);
+    file.entries[0] |= 1 << 27;
+    file.meta.sampler.mask = true;
+    for filter in FILTERS {
+        check(sample(&file, filter, 0.7, 0.01), [128.0 / 255.0; 4], 1e-3);
+        check(sample(&file, filter, 0.3, 0.01), [0.0; 4], 0.0);
+    }
+}
+
+#[test]
+fn garbage_words_never_panic() {
+    let words = pack(&patched(128), &PackOptions::default());
+    let mut state = 1_u64;
+    let mut random = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040);
+        (state >> 33) as u32
+    };
+    for _ in 0..20_000 {
+        let mut broken = words.clone();
+        for _ in 0..1 + random() % 4 {
+            let at = random() as usize % broken.len().min(48);
+            broken[at] = if random() % 2 == 0 {
+                random() << 1
+            } else {
+                random() % 64
+            };
+        }
+        broken.truncate(random() as usize % broken.len());
+        let uv = [random() as f32 / 1e9, random() as f32 / 1e9];
+        let special = [0.0, 1e-3, 1e9, f32::INFINITY, f32::NAN][random() as usize % 5];
+        Sampler::new(&broken).sample(uv, [special, 0.0, 0.1, special]);
+        Sampler::new(&broken).sample([special, uv[1]], [0.0; 4]);
+    }
+}

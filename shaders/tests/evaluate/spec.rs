@@ -1,0 +1,117 @@
+//! Keys from contents, and text from keys.
+
+use vtex_format::{AddressMode, Features, Outline};
+use vtex_shaders::{BindingSlot, PackOptions, fragment, spec_key, spec_key_with};
+
+use crate::builder::{Cover, image, key, paint, row_of, set_list, set_solid};
+
+#[test]
+fn keys_say_what_a_file_holds() {
+    let mut file = row_of(3);
+    assert_eq!(spec_key(&file).features, 0);
+    set_solid(&mut file, 0, [1.0, 1.0, 1.0, 0.5]);
+    assert_eq!(
+        spec_key(&file).features,
+        0,
+        "a translucent cell is one colour all the same"
+    );
+    set_list(
+        &mut file,
+        1,
+        &[(Cover::Edge(1.0), [1.0; 4]), (Cover::Full, [1.0; 4])],
+    );
+    assert_eq!(spec_key(&file).features, Features::LISTS | Features::MSDF);
+    assert_eq!(spec_key(&file).max_entries, 2);
+    let glass = [1.0, 1.0, 1.0, 0.5];
+    let outline = Outline {
+        width_texels: 0.5,
+        paint: paint(&mut file, glass),
+    };
+    let mut outlined = file.clone();
+    outlined.meta.sampler.outline = Some(outline);
+    let expected = Features::LISTS | Features::MSDF | Features::OUTLINE | Features::TRANSLUCENT;
+    assert_eq!(spec_key(&outlined).features, expected);
+    set_list(
+        &mut file,
+        2,
+        &[
+            (Cover::Full, glass),
+            (Cover::Full, glass),
+            (Cover::Full, glass),
+        ],
+    );
+    assert_eq!(spec_key(&file).max_entries, 3);
+    assert_ne!(spec_key(&file).features & Features::TRANSLUCENT, 0);
+    file.images
+        .push(image([0.0, 0.0, 1.0, 1.0], [2, 2], |_, _, _| [0; 4]));
+    assert_ne!(spec_key(&file).features & Features::MIPS, 0);
+}
+
+#[test]
+fn overrides_change_the_key() {
+    let file = row_of(1);
+    let options = PackOptions {
+        address: Some([AddressMode::Mirror, AddressMode::Border]),
+        texture_matrix: Some([2.0, 0.0, 0.0, 2.0, 0.0, 0.0]),
+        ..PackOptions::default()
+    };
+    let key = spec_key_with(&file, &options);
+    assert_eq!((key.address_u, key.address_v), (2, 3));
+    assert_eq!(key.features, Features::TEXTURE_MATRIX);
+    assert_eq!(
+        spec_key_with(&file, &PackOptions::default()),
+        spec_key(&file)
+    );
+}
+
+#[test]
+fn code_of_absent_features_is_not_in_the_text() {
+    for features in 0..=Features::ALL {
+        let text = fragment(&key(features), BindingSlot::default());
+        let has = |feature: u32| features & feature != 0;
+        let lists = has(Features::LISTS);
+        let msdf = lists && has(Features::MSDF);
+        let images = lists && has(Features::IMAGES);
+        // An image's texels may be translucent.
+        let translucent = lists && (has(Features::TRANSLUCENT) || images);
+        let mask = has(Features::MASK);
+        for (symbol, wanted) in [
+            ("vtex_composite", lists),
+            ("vtex_msdf_", msdf),
+            ("vtex_math_median", msdf),
+            ("vtex_image_", images || has(Features::MIPS)),
+            ("vtex_texel", images || has(Features::MIPS)),
+            ("_outline", msdf && has(Features::OUTLINE)),
+            ("vtex_over", translucent && !mask),
+            ("vtex_color_encode", translucent && !mask),
+            ("vtex_color_decode", translucent && !mask),
+            ("vtex_matrix_linear", has(Features::TEXTURE_MATRIX)),
+            ("alias VtexValue = f32;", mask),
+            ("vtex_address_axis", false),
+        ] {
+            assert_eq!(
+                text.contains(symbol),
+                wanted,
+                "{symbol} with features {features:#b}"
+            );
+        }
+    }
+    let mut repeats = key(0);
+    repeats.address_v = AddressMode::Repeat as u32;
+    assert!(fragment(&repeats, BindingSlot::default()).contains("vtex_address_axis"));
+}
+
+#[test]
+fn every_name_can_live_in_another_shader() {
+    let text = fragment(
+        &key(Features::ALL & !Features::MASK),
+        BindingSlot::default(),
+    );
+    for line in text.lines() {
+        for start in ["fn ", "const ", "struct ", "alias "] {
+            if let Some(name) = line.strip_prefix(start) {
+                assert!(name.to_lowercase().starts_with("vtex"), "{line}");
+            }
+        }
+    }
+}

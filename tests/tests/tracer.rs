@@ -1,0 +1,492 @@
+//! The runtime on a real adapter: batch lookups, light transport, orientation.
+//!
+//! `VTEX_GPU=off` skips these tests and says so; without it a missing adapter is a failure.
+
+use std::sync::{Arc, OnceLock};
+
+use vtex_format::{
+    AddressMode, CellWord, Grid, Meta, PaintRecord, SHADER_ABI, SamplerSettings, ShaderBlob,
+    SpecKey, VtexFile,
+};
+use vtex_runtime::glam::{Affine3A, Vec3};
+use vtex_runtime::{
+    Background, BatchQuery, BatchSampler, Camera, Film, Gpu, GpuVtex, Instance, LightSampling,
+    LoadOptions, Material, Mesh, RectLight, RuntimeError, Scene, Sky, Surface, TraceOptions,
+    Tracer, Trust, scene,
+};
+
+/// The adapter all tests share, or `None` when they are switched off.
+#[expect(clippy::print_stdout, reason = "a skipped test has to say so")]
+fn gpu() -> Option<&'static Gpu> {
+    static GPU: OnceLock<Option<Gpu>> = OnceLock::new();
+    GPU.get_or_init(|| {
+        if std::env::var("VTEX_GPU").is_ok_and(|value| value == "off") {
+            println!("skipped: VTEX_GPU=off");
+            return None;
+        }
+        let gpu = Gpu::headless().expect("an adapter; VTEX_GPU=off skips these tests");
+        // A test must not pass over a validation error that nobody expected.
+        gpu.device
+            .on_uncaptured_error(Arc::new(|error| panic!("{error}")));
+        Some(gpu)
+    })
+    .as_ref()
+}
+
+/// A file of single-colour cells, `size` columns and rows; `colors` row by row from the top,
+/// straight alpha, sRGB-encoded.
+fn cells_file(size: [u32; 2], colors: &[[f32; 4]]) -> VtexFile {
+    let spec = SpecKey {
+        abi: SHADER_ABI,
+        features: 0,
+        address_u: AddressMode::Clamp as u32,
+        address_v: AddressMode::Clamp as u32,
+        texels_per_cell: 8,
+        max_entries: 0,
+        reserved: [0; 2],
+    };
+    VtexFile {
+        meta: Meta {
+            canvas_size: size.map(|side| side as f32 * 10.0),
+            grid: Grid {
+                size_cells: size,
+                cell_from_uv_scale: size.map(|side| side as f32),
+                cell_from_uv_offset: [0.0; 2],
+                texels_per_cell: 8,
+            },
+            distance_range_texels: 4.0,
+            max_zoom: 1.0,
+            sampler: SamplerSettings::default(),
+        },
+        spec,
+        shader: ShaderBlob {
+            abi: SHADER_ABI,
+            wgsl_fragment: vtex_shaders::fragment(&spec, vtex_shaders::BindingSlot::default()),
+            batch_spirv: Vec::new(),
+        },
+        paints: colors.iter().map(|&c| PaintRecord::solid(c)).collect(),
+        shapes: Vec::new(),
+        layers: Vec::new(),
+        cells: (0..)
+            .zip(colors)
+            .map(|(paint, _)| CellWord::Solid { paint }.encode().unwrap())
+            .collect(),
+        entries: Vec::new(),
+        tiles: Vec::new(),
+        images: Vec::new(),
+        provenance: None,
+    }
+}
+
+const RED: [f32; 4] = [1.0, 0.0, 0.0, 1.0];
+const GREEN: [f32; 4] = [0.0, 1.0, 0.0, 1.0];
+const BLUE: [f32; 4] = [0.0, 0.0, 1.0, 1.0];
+const CLEAR: [f32; 4] = [0.0, 0.0, 0.0, 0.0];
+
+/// Red top left, green top right, blue bottom left, nothing bottom right.
+fn quarters() -> VtexFile {
+    cells_file([2, 2], &[RED, GREEN, BLUE, CLEAR])
+}
+
+fn render(scene: &Scene, size: [u32; 2], samples: u32, options: &TraceOptions) -> Option<Film> {
+    let gpu = gpu()?;
+    let mut tracer = Tracer::new(&gpu.device, &gpu.queue, scene, size, options).unwrap();
+    tracer.accumulate(samples).unwrap();
+    Some(tracer.read().unwrap())
+}
+
+fn mean(film: &Film) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for pixel in &film.pixels {
+        for (total, &value) in sum.iter_mut().zip(pixel) {
+            *total += f64::from(value);
+        }
+    }
+    sum.map(|total| total / film.pixels.len() as f64)
+}
+
+fn query(u: f32, v: f32) -> BatchQuery {
+    BatchQuery {
+        uv: [u, v],
+        ..BatchQuery::default()
+    }
+}
+
+#[test]
+fn batch_sampler_answers_in_order_over_chunks() {
+    let Some(gpu) = gpu() else { return };
+    let file = quarters();
+    let options = LoadOptions::default();
+    let sampler =
+        BatchSampler::new(&gpu.device, &gpu.queue, &file, &options, Trust::Regenerate).unwrap();
+    assert_eq!(sampler.notices(), &[] as &[String]);
+    assert_eq!(sampler.sample(&[]).unwrap(), Vec::<[f32; 4]>::new());
+    let corners = [
+        query(0.2, 0.2),
+        query(0.8, 0.2),
+        query(0.2, 0.8),
+        query(0.8, 0.8),
+    ];
+    let queries: Vec<BatchQuery> = corners.iter().copied().cycle().take(200_001).collect();
+    let colors = sampler.sample(&queries).unwrap();
+    assert_eq!(colors.len(), queries.len());
+    let expected = [RED, GREEN, BLUE, CLEAR];
+    for (i, color) in colors.iter().enumerate() {
+        assert_eq!(*color, expected[i % 4], "query {i}");
+    }
+}
+
+#[test]
+fn a_stored_shader_that_is_not_the_keys_is_told_and_not_used() {
+    let Some(gpu) = gpu() else { return };
+    let options = LoadOptions::default();
+    let sampler = |file: &VtexFile, trust| {
+        BatchSampler::new(&gpu.device, &gpu.queue, file, &options, trust).unwrap()
+    };
+    let mut other_text = quarters();
+    other_text.shader.wgsl_fragment.push_str("// edited\n");
+    let mut other_abi = quarters();
+    other_abi.shader.abi = SHADER_ABI + 1;
+    let mut noise = quarters();
+    noise.shader.batch_spirv = vec![0x0723_0203, 1, 2, 3, 4, 5, 6, 7];
+    for (name, file, trust, notices) in [
+        ("text", &other_text, Trust::Regenerate, 1),
+        ("abi", &other_abi, Trust::Regenerate, 1),
+        ("abi, trusted", &other_abi, Trust::File, 1),
+        ("noise", &noise, Trust::Regenerate, 0),
+        ("noise, trusted", &noise, Trust::File, 1),
+    ] {
+        let sampler = sampler(file, trust);
+        let told = sampler.notices();
+        assert_eq!(told.len(), notices, "{name}: {told:?}");
+        let colors = sampler.sample(&[query(0.8, 0.2)]).unwrap();
+        assert_eq!(colors, [GREEN], "{name}");
+    }
+}
+
+#[test]
+fn a_texture_past_the_binding_limit_is_refused() {
+    let Some(gpu) = gpu() else { return };
+    let mut file = quarters();
+    file.tiles = vec![0; 129 << 20];
+    let error = GpuVtex::upload(&gpu.device, &gpu.queue, &file, &LoadOptions::default());
+    assert!(matches!(error, Err(RuntimeError::Limit(_))), "{error:?}");
+}
+
+/// One mesh under a white sky.
+fn furnace(mesh: Mesh, material: Material) -> Scene {
+    Scene {
+        meshes: vec![mesh],
+        instances: vec![Instance {
+            mesh: 0,
+            material: 0,
+            world_from_object: Affine3A::IDENTITY,
+        }],
+        materials: vec![material],
+        textures: Vec::new(),
+        sky: Sky::uniform(1.0),
+        lights: Vec::new(),
+        camera: Camera {
+            position: Vec3::new(0.4, 0.5, 4.0),
+            target: Vec3::ZERO,
+            up: Vec3::Y,
+            fov_y_rad: 0.4,
+        },
+    }
+}
+
+fn glossy(metallic: f32, roughness: f32, base_color: [f32; 3]) -> Material {
+    Material {
+        base_color,
+        surface: Surface::Glossy {
+            metallic,
+            roughness,
+        },
+        ..Material::default()
+    }
+}
+
+#[test]
+fn a_white_diffuse_object_vanishes_in_a_white_furnace() {
+    let scene = furnace(Mesh::cuboid(Vec3::ONE), Material::default());
+    let Some(film) = render(&scene, [48, 48], 16, &TraceOptions::default()) else {
+        return;
+    };
+    for pixel in &film.pixels {
+        for &value in &pixel[..3] {
+            assert!((value - 1.0).abs() < 1e-5, "{pixel:?}");
+        }
+    }
+}
+
+#[test]
+fn a_plane_reflects_its_albedo() {
+    let grey = Material {
+        base_color: [0.5, 0.25, 0.125],
+        ..Material::default()
+    };
+    let scene = furnace(Mesh::plane(40.0, 40.0), grey);
+    let Some(film) = render(&scene, [16, 16], 4, &TraceOptions::default()) else {
+        return;
+    };
+    for (got, want) in mean(&film).iter().zip([0.5, 0.25, 0.125]) {
+        assert!((got - want).abs() < 1e-6, "{got} for {want}");
+    }
+}
+
+#[test]
+fn a_white_metal_plane_reflects_what_single_scattering_does() {
+    // What single-scattering GGX with height-correlated Smith masking reflects at this angle, by
+    // numerical integration of the model; the rest would scatter again between microfacets.
+    for (roughness, albedo) in [(0.0, 1.0), (0.2, 0.9989), (0.5, 0.9148), (1.0, 0.3093)] {
+        let scene = furnace(Mesh::plane(40.0, 40.0), glossy(1.0, roughness, [1.0; 3]));
+        let Some(film) = render(&scene, [16, 16], 256, &TraceOptions::default()) else {
+            return;
+        };
+        let [value, ..] = mean(&film);
+        assert!((value - albedo).abs() < 0.005, "{roughness}: {value}");
+    }
+}
+
+/// A wall and a glossy floor with a light that shines down on them.
+fn lit_scene() -> Scene {
+    let wall = Material {
+        base_color: [0.7, 0.6, 0.5],
+        ..Material::default()
+    };
+    let mut scene = furnace(Mesh::plane(4.0, 4.0), wall);
+    scene.sky = Sky::uniform(0.0);
+    scene.camera.position = Vec3::new(0.0, 1.5, 4.0);
+    scene.materials.push(glossy(0.0, 0.4, [0.6; 3]));
+    scene.instances.push(Instance {
+        mesh: 0,
+        material: 1,
+        world_from_object: Affine3A::from_translation(Vec3::new(0.0, -1.0, 1.0))
+            * Affine3A::from_rotation_x(-std::f32::consts::FRAC_PI_2),
+    });
+    scene.lights.push(RectLight {
+        corner: Vec3::new(-1.0, 1.5, 0.5),
+        edge_u: Vec3::X * 2.0,
+        edge_v: Vec3::Z * 2.0,
+        radiance: [2.0, 2.0, 2.0],
+    });
+    scene
+}
+
+#[test]
+fn aiming_at_lights_and_scattering_alone_agree() {
+    let scene = lit_scene();
+    let options = |light_sampling| TraceOptions {
+        light_sampling,
+        indirect_clamp: f32::INFINITY,
+        ..TraceOptions::default()
+    };
+    let size = [32, 32];
+    let Some(aimed) = render(&scene, size, 256, &options(LightSampling::Mis)) else {
+        return;
+    };
+    let scattered = render(&scene, size, 2048, &options(LightSampling::ScatterOnly)).unwrap();
+    let (aimed, scattered) = (mean(&aimed), mean(&scattered));
+    for (a, b) in aimed.iter().zip(scattered) {
+        assert!(*a > 0.05, "dark: {aimed:?}");
+        assert!((a - b).abs() < 0.01 * b, "{aimed:?} against {scattered:?}");
+    }
+}
+
+#[test]
+fn a_light_shines_from_its_front_only() {
+    let mut scene = lit_scene();
+    let light = &mut scene.lights[0];
+    std::mem::swap(&mut light.edge_u, &mut light.edge_v);
+    // Above everything and turned away, it lights nothing.
+    light.corner.y = 3.0;
+    let Some(film) = render(&scene, [16, 16], 8, &TraceOptions::default()) else {
+        return;
+    };
+    assert_eq!(mean(&film), [0.0; 3]);
+}
+
+#[test]
+fn half_transparent_surfaces_let_half_the_light_through() {
+    let file = cells_file([1, 1], &[[0.0, 0.0, 0.0, 0.5]]);
+    let mut scene = furnace(
+        Mesh::plane(40.0, 40.0),
+        Material {
+            texture: Some(0),
+            ..Material::default()
+        },
+    );
+    scene.textures = vec![(file, LoadOptions::default())];
+    let Some(film) = render(&scene, [32, 32], 64, &TraceOptions::default()) else {
+        return;
+    };
+    let [value, ..] = mean(&film);
+    assert!((value - 0.5).abs() < 0.01, "camera rays: {value}");
+
+    // The same veil between the light and the wall halves direct light.
+    let options = TraceOptions {
+        max_bounces: 1,
+        ..TraceOptions::default()
+    };
+    let bare = lit_scene();
+    let mut veiled = bare.clone();
+    veiled.textures = scene.textures;
+    veiled.meshes.push(Mesh::plane(40.0, 40.0));
+    veiled.materials.push(scene.materials[0]);
+    veiled.instances.push(Instance {
+        mesh: 1,
+        material: 2,
+        world_from_object: Affine3A::from_translation(Vec3::Y * 1.4)
+            * Affine3A::from_rotation_x(-std::f32::consts::FRAC_PI_2),
+    });
+    // The camera stays below the veil.
+    veiled.camera.position.y = 1.0;
+    let bare = Scene {
+        camera: veiled.camera,
+        ..bare
+    };
+    let size = [24, 24];
+    let [bare, ..] = mean(&render(&bare, size, 256, &options).unwrap());
+    let [veiled, ..] = mean(&render(&veiled, size, 256, &options).unwrap());
+    // The light itself is out of sight, so everything on the film is halved.
+    assert!((veiled / bare - 0.5).abs() < 0.02, "{veiled} of {bare}");
+}
+
+#[test]
+fn same_seed_same_picture_however_it_is_cut() {
+    let Some(gpu) = gpu() else { return };
+    let scene = scene::showroom(vec![quarters()]);
+    let options = TraceOptions::default();
+    let picture = |cuts: &[u32], options: &TraceOptions| {
+        let mut tracer = Tracer::new(&gpu.device, &gpu.queue, &scene, [40, 30], options).unwrap();
+        for &samples in cuts {
+            tracer.accumulate(samples).unwrap();
+        }
+        tracer.read().unwrap()
+    };
+    let whole = picture(&[9], &options);
+    assert!(whole == picture(&[9], &options), "same run");
+    assert!(whole == picture(&[2, 3, 4], &options), "other cuts");
+    let other = TraceOptions { seed: 1, ..options };
+    assert!(whole.pixels != picture(&[9], &other).pixels, "other seed");
+}
+
+#[test]
+fn stats_count_rays_and_reset_starts_over() {
+    let Some(gpu) = gpu() else { return };
+    let scene = furnace(Mesh::plane(40.0, 40.0), Material::default());
+    let options = TraceOptions::default();
+    let mut tracer = Tracer::new(&gpu.device, &gpu.queue, &scene, [20, 10], &options).unwrap();
+    tracer.accumulate(3).unwrap();
+    let stats = tracer.stats().unwrap();
+    // One camera ray and one into the sky for each path; a plane cannot see itself.
+    assert_eq!((stats.rays, stats.triangles), (2 * 3 * 200, 2));
+    assert!(stats.device_ns.is_none_or(|ns| ns > 0), "{stats:?}");
+    tracer.set_camera(&scene.camera).unwrap();
+    assert_eq!((tracer.samples(), tracer.stats().unwrap().rays), (0, 0));
+}
+
+#[test]
+fn the_texture_stands_upright_on_the_plane() {
+    let scene = scene::plane(quarters(), LoadOptions::default());
+    let options = TraceOptions::default();
+    let Some(film) = render(&scene, [64, 64], 4, &options) else {
+        return;
+    };
+    let at = |x: usize, y: usize| film.pixels[y * 64 + x];
+    for (name, pixel, want) in [
+        ("top left", at(10, 10), [1.0, 0.0, 0.0]),
+        ("top right", at(53, 10), [0.0, 1.0, 0.0]),
+        ("bottom left", at(10, 53), [0.0, 0.0, 1.0]),
+        ("bottom right shows the sky", at(53, 53), [1.0, 1.0, 1.0]),
+        ("left edge", at(0, 20), [1.0, 0.0, 0.0]),
+    ] {
+        for (got, want) in pixel.iter().zip(want) {
+            assert!((got - want).abs() < 1e-5, "{name}: {pixel:?}");
+        }
+    }
+    let transparent = TraceOptions {
+        background: Background::Transparent,
+        ..options
+    };
+    let film = render(&scene, [64, 64], 4, &transparent).unwrap();
+    assert_eq!(film.pixels[53 * 64 + 53], [0.0; 4]);
+    assert_eq!(film.pixels[10 * 64 + 10][3].to_bits(), 1.0_f32.to_bits());
+}
+
+#[test]
+fn a_zoomed_plane_shows_the_part_asked_for() {
+    let file = cells_file([4, 1], &[RED, GREEN, BLUE, RED]);
+    let mut scene = scene::plane(file.clone(), LoadOptions::default());
+    scene.camera = scene::plane_camera(&file, [0.25, 0.0, 0.5, 1.0], 1.0);
+    let Some(film) = render(&scene, [16, 16], 1, &TraceOptions::default()) else {
+        return;
+    };
+    for pixel in &film.pixels {
+        assert!(pixel[1] > 0.99 && pixel[0] < 0.01, "{pixel:?}");
+    }
+}
+
+#[test]
+fn all_meshes_show_the_texture_upright_from_outside() {
+    let meshes = [
+        ("plane", Mesh::plane(2.0, 2.0)),
+        ("cuboid", Mesh::cuboid(Vec3::splat(2.0))),
+        ("cylinder", Mesh::cylinder(1.0, 2.0, 64, 1.0)),
+        ("sphere", Mesh::sphere(1.0, 64, 1.0)),
+    ];
+    for (name, mesh) in meshes {
+        let mut scene = furnace(
+            mesh,
+            Material {
+                texture: Some(0),
+                ..Material::default()
+            },
+        );
+        scene.textures = vec![(quarters(), LoadOptions::default())];
+        scene.camera.position = Vec3::new(0.0, 0.0, 6.0);
+        let options = TraceOptions {
+            max_bounces: 1,
+            ..TraceOptions::default()
+        };
+        let Some(film) = render(&scene, [64, 64], 16, &options) else {
+            return;
+        };
+        let at = |x: usize, y: usize| film.pixels[y * 64 + x];
+        let (red, green, blue) = (at(24, 24), at(40, 24), at(24, 40));
+        assert!(red[0] > 0.9 && red[1] < 0.1, "{name} top left: {red:?}");
+        assert!(green[1] > 0.9 && green[0] < 0.1, "{name} top right: {green:?}");
+        assert!(blue[2] > 0.9 && blue[0] < 0.1, "{name} bottom left: {blue:?}");
+    }
+}
+
+#[test]
+fn a_scene_that_contradicts_itself_is_refused() {
+    let Some(gpu) = gpu() else { return };
+    let good = furnace(Mesh::plane(1.0, 1.0), Material::default());
+    let check = |what: &str, size, break_it: &dyn Fn(&mut Scene)| {
+        let mut scene = good.clone();
+        break_it(&mut scene);
+        let options = TraceOptions::default();
+        let made = Tracer::new(&gpu.device, &gpu.queue, &scene, size, &options);
+        let refused = matches!(made, Err(RuntimeError::Parameter(_)));
+        assert!(refused, "{what}: {made:?}");
+    };
+    check("mesh", [8, 8], &|s| s.instances[0].mesh = 7);
+    check("vertex", [8, 8], &|s| s.meshes[0].triangles[0][1] = 99);
+    check("nan", [8, 8], &|s| s.meshes[0].positions[0].x = f32::NAN);
+    check("texture", [8, 8], &|s| s.materials[0].texture = Some(0));
+    check("color", [8, 8], &|s| s.materials[0].base_color[0] = 1.5);
+    check("camera", [8, 8], &|s| s.camera.target = s.camera.position);
+    check("film", [0, 8], &|_| {});
+}
+
+#[test]
+fn an_empty_scene_is_sky() {
+    let mut scene = furnace(Mesh::default(), Material::default());
+    scene.instances.clear();
+    let Some(film) = render(&scene, [8, 8], 2, &TraceOptions::default()) else {
+        return;
+    };
+    assert_eq!(film.pixels, vec![[1.0; 4]; 64]);
+}
