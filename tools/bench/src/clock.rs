@@ -17,7 +17,10 @@ pub(crate) struct Trial<'a> {
 impl<'a> Trial<'a> {
     /// A trial that times itself and does `items` lookups, rays or the like a run.
     pub(crate) fn timed(items: usize, run: impl FnMut() -> Result<Duration> + 'a) -> Self {
-        Self { items: items as f64, run: Box::new(run) }
+        Self {
+            items: items as f64,
+            run: Box::new(run),
+        }
     }
 }
 
@@ -86,7 +89,12 @@ pub(crate) fn interleave(mut trials: Vec<Trial<'_>>, rounds: usize) -> Result<Ve
         }
     }
     let timings = trials.into_iter().zip(seconds);
-    Ok(timings.map(|(trial, seconds)| Timing { items: trial.items, seconds }).collect())
+    Ok(timings
+        .map(|(trial, seconds)| Timing {
+            items: trial.items,
+            seconds,
+        })
+        .collect())
 }
 
 #[cfg(test)]
@@ -110,11 +118,21 @@ mod tests {
 
     #[test]
     fn ratios_are_taken_within_rounds() {
-        let timing = |seconds: [f64; 3]| Timing { items: 10.0, seconds: seconds.to_vec() };
+        let timing = |seconds: [f64; 3]| Timing {
+            items: 10.0,
+            seconds: seconds.to_vec(),
+        };
         // The machine is ten times slower in the second round; the ratio does not see it.
         let fast = timing([1.0, 10.0, 1.0]);
         let slow = timing([2.0, 20.0, 2.0]);
-        assert_eq!(fast.speed_against(&slow), Spread { median: 2.0, min: 2.0, max: 2.0 });
+        assert_eq!(
+            fast.speed_against(&slow),
+            Spread {
+                median: 2.0,
+                min: 2.0,
+                max: 2.0
+            }
+        );
     }
 
     #[test]

@@ -41,9 +41,17 @@ impl Count {
 
 /// Counts the lookup at `uv`, inside the canvas, with a footprint `pixel_u` wide in u.
 pub(crate) fn count(file: &VtexFile, uv: [f32; 2], pixel_u: f32, filter: FilterMode) -> Count {
-    let walk = Walk { file, uv, pixel_u, filter };
+    let walk = Walk {
+        file,
+        uv,
+        pixel_u,
+        filter,
+    };
     let (word, q) = walk.cell();
-    let found = Count { bytes: CELL_BYTES, ..Count::default() };
+    let found = Count {
+        bytes: CELL_BYTES,
+        ..Count::default()
+    };
     match CellWord::decode(word) {
         Some(CellWord::Solid { .. }) => found.plus(paint()),
         Some(CellWord::List { offset_words }) => found.plus(walk.list(offset_words, q)),
@@ -59,7 +67,10 @@ struct Walk<'a> {
 }
 
 fn paint() -> Count {
-    Count { bytes: PAINT_BYTES, ..Count::default() }
+    Count {
+        bytes: PAINT_BYTES,
+        ..Count::default()
+    }
 }
 
 impl Walk<'_> {
@@ -74,7 +85,10 @@ impl Walk<'_> {
         };
         let [(column, s), (row, t)] = [place(0), place(1)];
         let at = row * grid.size_cells[0] + column;
-        (self.file.cells.get(at as usize).copied().unwrap_or(0), [s, t])
+        (
+            self.file.cells.get(at as usize).copied().unwrap_or(0),
+            [s, t],
+        )
     }
 
     fn list(&self, offset_words: u32, q: [f32; 2]) -> Count {
@@ -83,9 +97,13 @@ impl Walk<'_> {
         let mut total = Count::default();
         let mut through = 1.0;
         let mut back_to_front = false;
-        let entries = self.file.entries[offset_words as usize..].as_chunks::<2>().0;
+        let entries = self.file.entries[offset_words as usize..]
+            .as_chunks::<2>()
+            .0;
         for &words in entries.iter().take(MAX_ENTRIES_PER_CELL as usize) {
-            let Some(entry) = Entry::decode(words) else { break };
+            let Some(entry) = Entry::decode(words) else {
+                break;
+            };
             // A translucent entry's ramp needs all that lies behind it: the rest is walked to
             // its end for the count, then backwards.
             back_to_front |= all_behind && !entry.opaque;
@@ -105,14 +123,26 @@ impl Walk<'_> {
     }
 
     fn visit(&self, entry: Entry, q: [f32; 2]) -> (f32, Count) {
-        let seen = Count { entries: 1, bytes: ENTRY_BYTES, ..Count::default() };
+        let seen = Count {
+            entries: 1,
+            bytes: ENTRY_BYTES,
+            ..Count::default()
+        };
         match entry.kind {
             EntryKind::Full => (1.0, seen.plus(paint())),
             EntryKind::Image => (1.0, seen.plus(self.image(entry.index))),
             EntryKind::Msdf => {
                 let coverage = self.coverage(entry.data, q);
-                let lookup = Count { msdf: 1, bytes: MSDF_BYTES, ..Count::default() };
-                let shown = if coverage > 0.0 { paint() } else { Count::default() };
+                let lookup = Count {
+                    msdf: 1,
+                    bytes: MSDF_BYTES,
+                    ..Count::default()
+                };
+                let shown = if coverage > 0.0 {
+                    paint()
+                } else {
+                    Count::default()
+                };
                 (coverage, seen.plus(lookup).plus(shown))
             }
         }
@@ -120,8 +150,11 @@ impl Walk<'_> {
 
     /// Magnified, so level 0 alone, unless the image is finer than the lookup.
     fn image(&self, image: u32) -> Count {
-        let Some(Image { rect_uv: [left, top, right, bottom], size, .. }) =
-            self.file.images.get(image as usize)
+        let Some(Image {
+            rect_uv: [left, top, right, bottom],
+            size,
+            ..
+        }) = self.file.images.get(image as usize)
         else {
             return Count::default();
         };
@@ -133,7 +166,10 @@ impl Walk<'_> {
             true if texels <= 1.0 => IMAGE_RECORD_BYTES + BILINEAR_BYTES,
             true => IMAGE_RECORD_BYTES + 2 * BILINEAR_BYTES,
         };
-        Count { bytes, ..Count::default() }
+        Count {
+            bytes,
+            ..Count::default()
+        }
     }
 
     fn coverage(&self, tile: u32, q: [f32; 2]) -> f32 {
@@ -150,7 +186,11 @@ impl Walk<'_> {
                 f32::from(byte.copied().unwrap_or(0)) / 255.0
             };
             let mix = |a: f32, b: f32, t: f32| a * (1.0 - t) + b * t;
-            mix(mix(texel(0), texel(1), s), mix(texel(pitch), texel(pitch + 1), s), t)
+            mix(
+                mix(texel(0), texel(1), s),
+                mix(texel(pitch), texel(pitch + 1), s),
+                t,
+            )
         };
         let [r, g, b] = [channel(0), channel(1), channel(2)];
         let median = r.min(g).max(r.max(g).min(b));
@@ -171,7 +211,11 @@ impl Walk<'_> {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "saturates"
+)]
 fn index(value: f32) -> u32 {
     value as u32
 }
@@ -185,9 +229,24 @@ mod tests {
 
     /// Two cells: one colour, and an MSDF whose left half is inside before a full cover.
     fn file(front_opaque: bool) -> VtexFile {
-        let front = Entry { kind: EntryKind::Msdf, last: false, opaque: front_opaque, index: 0, data: 0 };
-        let back = Entry { kind: EntryKind::Full, last: true, opaque: true, index: 0, data: 0 };
-        let cells = [CellWord::Solid { paint: 0 }, CellWord::List { offset_words: 0 }];
+        let front = Entry {
+            kind: EntryKind::Msdf,
+            last: false,
+            opaque: front_opaque,
+            index: 0,
+            data: 0,
+        };
+        let back = Entry {
+            kind: EntryKind::Full,
+            last: true,
+            opaque: true,
+            index: 0,
+            data: 0,
+        };
+        let cells = [
+            CellWord::Solid { paint: 0 },
+            CellWord::List { offset_words: 0 },
+        ];
         let mut file = VtexFile {
             meta: Meta {
                 canvas_size: [2.0, 1.0],
@@ -207,11 +266,25 @@ mod tests {
                 wgsl_fragment: String::new(),
                 batch_spirv: Vec::new(),
             },
-            paints: vec![PaintRecord::solid([1.0, 0.0, 0.0, if front_opaque { 1.0 } else { 0.5 }])],
+            paints: vec![PaintRecord::solid([
+                1.0,
+                0.0,
+                0.0,
+                if front_opaque { 1.0 } else { 0.5 },
+            ])],
             shapes: Vec::new(),
-            layers: vec![LayerRecord { tile_first: 0, tile_count: 1, shape_count: 1, reserved: 0 }],
+            layers: vec![LayerRecord {
+                tile_first: 0,
+                tile_count: 1,
+                shape_count: 1,
+                reserved: 0,
+            }],
             cells: cells.iter().filter_map(|cell| cell.encode()).collect(),
-            entries: [front, back].iter().filter_map(|entry| entry.encode()).flatten().collect(),
+            entries: [front, back]
+                .iter()
+                .filter_map(|entry| entry.encode())
+                .flatten()
+                .collect(),
             tiles: [[255; 4], [0, 0, 0, 255], [255; 4], [0, 0, 0, 255]].concat(),
             images: Vec::new(),
             provenance: None,
@@ -223,15 +296,36 @@ mod tests {
     #[test]
     fn single_colours_read_a_word_and_a_paint() {
         let got = count(&file(true), [0.25, 0.5], 0.001, FilterMode::Point);
-        assert_eq!(got, Count { entries: 0, msdf: 0, bytes: 20 });
+        assert_eq!(
+            got,
+            Count {
+                entries: 0,
+                msdf: 0,
+                bytes: 20
+            }
+        );
     }
 
     #[test]
     fn walks_stop_where_nothing_behind_shows() {
         let inside = count(&file(true), [0.6, 0.5], 0.001, FilterMode::Point);
-        assert_eq!(inside, Count { entries: 1, msdf: 1, bytes: 4 + 8 + 16 + 16 });
+        assert_eq!(
+            inside,
+            Count {
+                entries: 1,
+                msdf: 1,
+                bytes: 4 + 8 + 16 + 16
+            }
+        );
         let outside = count(&file(true), [0.9, 0.5], 0.001, FilterMode::Point);
-        assert_eq!(outside, Count { entries: 2, msdf: 1, bytes: 4 + 8 + 16 + 8 + 16 });
+        assert_eq!(
+            outside,
+            Count {
+                entries: 2,
+                msdf: 1,
+                bytes: 4 + 8 + 16 + 8 + 16
+            }
+        );
         let ramp = count(&file(true), [0.75, 0.5], 0.1, FilterMode::Footprint);
         assert_eq!(ramp.entries, 2);
     }
@@ -239,7 +333,14 @@ mod tests {
     #[test]
     fn translucent_ramps_walk_twice() {
         let point = count(&file(false), [0.6, 0.5], 0.001, FilterMode::Point);
-        assert_eq!(point, Count { entries: 2, msdf: 1, bytes: 4 + 8 + 16 + 16 + 8 + 16 });
+        assert_eq!(
+            point,
+            Count {
+                entries: 2,
+                msdf: 1,
+                bytes: 4 + 8 + 16 + 16 + 8 + 16
+            }
+        );
         let ramp = count(&file(false), [0.6, 0.5], 0.001, FilterMode::Footprint);
         assert_eq!(ramp.bytes, point.bytes + 8);
     }

@@ -57,7 +57,9 @@ pub(crate) fn cpu_tables(
             for sampler in &samplers {
                 let sample = |query: &BatchQuery| sampler.sample(query.uv, query.footprint);
                 let queries = &queries;
-                trials.push(Trial::timed(set.len(), move || Ok(spread(queries, threads, sample))));
+                trials.push(Trial::timed(set.len(), move || {
+                    Ok(spread(queries, threads, sample))
+                }));
             }
             rows.push((subject, set, interleave(trials, effort.rounds)?));
         }
@@ -93,7 +95,10 @@ pub(crate) fn count_table(subjects: &[Subject], effort: Effort) -> Table {
         let lookups = set.len() as f64;
         let sum = |filter| {
             let of = |query: BatchQuery| count(&subject.file, query.uv, query.footprint[0], filter);
-            set.queries().into_iter().map(of).fold(Count::default(), Count::plus)
+            set.queries()
+                .into_iter()
+                .map(of)
+                .fold(Count::default(), Count::plus)
         };
         let [point, footprint] = [sum(FilterMode::Point), sum(FilterMode::Footprint)];
         let mean = |total: u64, digits| Cell::Number(total as f64 / lookups, digits);
@@ -116,7 +121,13 @@ pub(crate) fn count_table(subjects: &[Subject], effort: Effort) -> Table {
 fn vtex_kernel(device: &Device, subject: &Subject, filter: FilterMode) -> Kernel {
     let words = subject.words(filter);
     let words = device.buffer(bytemuck::cast_slice(&words), wgpu::BufferUsages::STORAGE);
-    let evaluator = fragment(&subject.file.spec, BindingSlot { group: 0, binding: 0 });
+    let evaluator = fragment(
+        &subject.file.spec,
+        BindingSlot {
+            group: 0,
+            binding: 0,
+        },
+    );
     let bridge = include_str!("wgsl/vtex.wgsl");
     device.kernel(&[&evaluator, bridge].concat(), &[words.as_entire_binding()])
 }
@@ -151,22 +162,30 @@ type Row<'a> = (&'a Subject, QuerySet, Vec<Timing>);
 fn tables(title: &str, baseline: &str, rows: &[Row<'_>]) -> Vec<Table> {
     let mut tables: Vec<(&str, Table)> = Vec::new();
     for (subject, set, timings) in rows {
-        let place = tables.iter().position(|(name, _)| *name == set.name).unwrap_or_else(|| {
-            let raster = format!("raster {RASTER_SIZE}^2");
-            let columns: Vec<&str> = ["million lookups/s", &raster]
-                .into_iter()
-                .chain(FILTERS.iter().map(|(name, _)| *name))
-                .collect();
-            let mut table = Table::new(format!("{title}, {}", set.name), &columns);
-            table.note(format!("{}; raster: {baseline}.", meaning(set.name)));
-            tables.push((set.name, table));
-            tables.len() - 1
-        });
+        let place = tables
+            .iter()
+            .position(|(name, _)| *name == set.name)
+            .unwrap_or_else(|| {
+                let raster = format!("raster {RASTER_SIZE}^2");
+                let columns: Vec<&str> = ["million lookups/s", &raster]
+                    .into_iter()
+                    .chain(FILTERS.iter().map(|(name, _)| *name))
+                    .collect();
+                let mut table = Table::new(format!("{title}, {}", set.name), &columns);
+                table.note(format!("{}; raster: {baseline}.", meaning(set.name)));
+                tables.push((set.name, table));
+                tables.len() - 1
+            });
         let mut cells = vec![Cell::Text(subject.name.clone())];
-        cells.extend(timings.iter().enumerate().map(|(index, timing)| Cell::Measured {
-            value: timing.millions_a_second(),
-            ratio: (index > 0).then(|| timing.speed_against(&timings[0])),
-        }));
+        cells.extend(
+            timings
+                .iter()
+                .enumerate()
+                .map(|(index, timing)| Cell::Measured {
+                    value: timing.millions_a_second(),
+                    ratio: (index > 0).then(|| timing.speed_against(&timings[0])),
+                }),
+        );
         tables[place].1.row(cells);
     }
     tables.into_iter().map(|(_, table)| table).collect()

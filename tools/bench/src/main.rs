@@ -85,7 +85,9 @@ fn main() -> Result<()> {
     let resources = resources();
     let machine = Machine::detect();
     let cores = machine.cores();
-    let device = (wanted(Part::Gpu) || wanted(Part::Rays)).then(Device::open).transpose()?;
+    let device = (wanted(Part::Gpu) || wanted(Part::Rays))
+        .then(Device::open)
+        .transpose()?;
     let mut report = Report::begin(machine, device.as_ref(), resources.fonts.len())?;
 
     if wanted(Part::Bake) {
@@ -94,8 +96,12 @@ fn main() -> Result<()> {
             report.add(stages_table(&paths, &resources, cores, effort.rounds)?)?;
         }
     }
-    let subjects: Vec<Subject> = match wanted(Part::Cpu) || wanted(Part::Gpu) || wanted(Part::Rays) {
-        true => paths.iter().map(|path| Subject::bake(path, &resources)).collect::<Result<_>>()?,
+    let subjects: Vec<Subject> = match wanted(Part::Cpu) || wanted(Part::Gpu) || wanted(Part::Rays)
+    {
+        true => paths
+            .iter()
+            .map(|path| Subject::bake(path, &resources))
+            .collect::<Result<_>>()?,
         false => Vec::new(),
     };
     if wanted(Part::Cpu) {
@@ -123,5 +129,7 @@ fn main() -> Result<()> {
 fn resources() -> Resources {
     let mut fonts = usvg::fontdb::Database::new();
     fonts.load_system_fonts();
-    Resources { fonts: Arc::new(fonts) }
+    Resources {
+        fonts: Arc::new(fonts),
+    }
 }

@@ -17,8 +17,9 @@ use crate::table::{Cell, Table};
 const FILM: [u32; 2] = [240, 160];
 /// Samples a pixel in a run.
 const SAMPLES: u32 = 4;
-/// Longer side of the raster textures: at 4096 their half floats exceed a binding of core WebGPU.
-const RASTER_SIZE: u32 = 2048;
+/// Longer side of the raster textures. Four of them at 2048, as half floats with their mips, exceed
+/// a binding of core WebGPU.
+const RASTER_SIZE: u32 = 1024;
 /// Objects of the showroom that take a texture.
 const SHOWROOM: usize = 4;
 
@@ -42,23 +43,42 @@ pub(crate) fn rays_table(
     ));
     let mut rasters = Vec::new();
     for (path, subject) in subjects {
-        let file = vtex_baker::bake_observed(&read(path)?, &raster_config(RASTER_SIZE), resources, &|_| ());
+        let file = vtex_baker::bake_observed(
+            &read(path)?,
+            &raster_config(RASTER_SIZE),
+            resources,
+            &|_| (),
+        );
         rasters.push(file.with_context(|| format!("cannot bake {}", subject.name))?);
     }
-    let vectors: Vec<VtexFile> = subjects.iter().map(|(_, subject)| subject.file.clone()).collect();
+    let vectors: Vec<VtexFile> = subjects
+        .iter()
+        .map(|(_, subject)| subject.file.clone())
+        .collect();
     let few = |files: &[VtexFile]| files.iter().take(SHOWROOM).cloned().collect();
-    let rooms = [scene::showroom(few(&rasters)), scene::showroom(few(&vectors)), scene::showroom(Vec::new())];
+    let rooms = [
+        scene::showroom(few(&rasters)),
+        scene::showroom(few(&vectors)),
+        scene::showroom(Vec::new()),
+    ];
     table.row(row(device, "showroom", &rooms, effort)?);
     for ((raster, vector), (_, subject)) in rasters.into_iter().zip(vectors).zip(subjects) {
         let mut bare = scene::plane(vector.clone(), LoadOptions::default());
         bare.textures.clear();
-        bare.materials.iter_mut().for_each(|material| material.texture = None);
+        bare.materials
+            .iter_mut()
+            .for_each(|material| material.texture = None);
         let planes = [
             scene::plane(raster, LoadOptions::default()),
             scene::plane(vector, LoadOptions::default()),
             bare,
         ];
-        table.row(row(device, &format!("plane, {}", subject.name), &planes, effort)?);
+        table.row(row(
+            device,
+            &format!("plane, {}", subject.name),
+            &planes,
+            effort,
+        )?);
     }
     Ok(table)
 }
@@ -78,10 +98,15 @@ fn row(device: &Device, name: &str, scenes: &[Scene], effort: Effort) -> Result<
         .collect();
     let timings = interleave(trials, effort.rounds)?;
     let mut cells = vec![Cell::Text(name.to_owned())];
-    cells.extend(timings.iter().enumerate().map(|(index, timing)| Cell::Measured {
-        value: timing.millions_a_second(),
-        ratio: (index > 0).then(|| timing.speed_against(&timings[0])),
-    }));
+    cells.extend(
+        timings
+            .iter()
+            .enumerate()
+            .map(|(index, timing)| Cell::Measured {
+                value: timing.millions_a_second(),
+                ratio: (index > 0).then(|| timing.speed_against(&timings[0])),
+            }),
+    );
     Ok(cells)
 }
 
@@ -93,5 +118,7 @@ fn trace(tracer: &mut Tracer) -> Result<Duration> {
     tracer.accumulate(SAMPLES)?;
     let wall = start.elapsed();
     let after = tracer.stats()?.device_ns;
-    Ok(before.zip(after).map_or(wall, |(before, after)| Duration::from_nanos(after - before)))
+    Ok(before
+        .zip(after)
+        .map_or(wall, |(before, after)| Duration::from_nanos(after - before)))
 }

@@ -36,6 +36,7 @@ impl Report {
         };
         let mut lines = report.machine.lines();
         lines.extend(device.map(Device::lines).unwrap_or_default());
+        lines.push(("Fonts", format!("{fonts} faces of the system")));
         let lines = lines
             .iter()
             .map(|(name, value)| format!("- {name}: {value}\n"));

@@ -173,8 +173,15 @@ pub(crate) fn check_queries(device: &Device) -> Result<()> {
         for (query, result) in set.queries().iter().zip(device.results(&batch)?) {
             let [u, v] = query.uv;
             let expect = [u, v, query.footprint[0], query.footprint[3]];
-            let same = expect.iter().zip(result).all(|(cpu, gpu)| (cpu - gpu).abs() < 1e-6);
-            ensure!(same, "{}: the GPU asks at {result:?}, the CPU at {expect:?}", set.name);
+            let same = expect
+                .iter()
+                .zip(result)
+                .all(|(cpu, gpu)| (cpu - gpu).abs() < 1e-6);
+            ensure!(
+                same,
+                "{}: the GPU asks at {result:?}, the CPU at {expect:?}",
+                set.name
+            );
         }
     }
     Ok(())

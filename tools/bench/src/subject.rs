@@ -49,7 +49,13 @@ impl Subject {
             .with_context(|| format!("{name} has no raster image"))?;
         let screen = Screen::new(file.meta.canvas_size);
         let busy_corner = busiest(&file, screen);
-        Ok(Self { name, file, raster, screen, busy_corner })
+        Ok(Self {
+            name,
+            file,
+            raster,
+            screen,
+            busy_corner,
+        })
     }
 
     /// Columns of the lookup tables: magnified where the drawing is busiest, as a whole at 1x,
@@ -64,18 +70,31 @@ impl Subject {
 
     /// Packed words.
     pub(crate) fn words(&self, filter: FilterMode) -> Vec<u32> {
-        pack(&self.file, &PackOptions { filter, ..PackOptions::default() })
+        pack(
+            &self.file,
+            &PackOptions {
+                filter,
+                ..PackOptions::default()
+            },
+        )
     }
 }
 
 /// The baker's settings for a raster texture of `size` texels along the longer side.
 pub(crate) fn raster_config(size: u32) -> BakeConfig {
-    BakeConfig { mode: Mode::Raster, mip0_size: size, ..BakeConfig::default() }
+    BakeConfig {
+        mode: Mode::Raster,
+        mip0_size: size,
+        ..BakeConfig::default()
+    }
 }
 
 /// File name without its ending.
 pub(crate) fn name(path: &Path) -> String {
-    path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+    path.file_stem()
+        .unwrap_or(path.as_os_str())
+        .to_string_lossy()
+        .into_owned()
 }
 
 /// Reads a file and says which when it cannot.
@@ -101,8 +120,9 @@ pub(crate) fn find(named: &[PathBuf]) -> Result<Vec<PathBuf>> {
 fn svg_files(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let paths = entries.map(|entry| entry.path());
-    let mut paths: Vec<PathBuf> =
-        paths.filter(|path| path.extension().is_some_and(|ending| ending == "svg")).collect();
+    let mut paths: Vec<PathBuf> = paths
+        .filter(|path| path.extension().is_some_and(|ending| ending == "svg"))
+        .collect();
     paths.sort();
     paths
 }
@@ -119,7 +139,10 @@ fn busiest(file: &VtexFile, screen: Screen) -> [f32; 2] {
         let [width, height] = set.extent_uv();
         let probe = |i: u16| {
             let at = |k: u16| (f32::from(k) + 0.5) / f32::from(PROBES);
-            [corner[0] + at(i % PROBES) * width, corner[1] + at(i / PROBES) * height]
+            [
+                corner[0] + at(i % PROBES) * width,
+                corner[1] + at(i / PROBES) * height,
+            ]
         };
         let visited = |uv| {
             let Count { entries, .. } = count(file, uv, 0.0, FilterMode::Point);

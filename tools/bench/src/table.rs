@@ -20,8 +20,6 @@ pub(crate) enum Cell {
         /// Speed as a multiple of the baseline's.
         ratio: Option<Spread>,
     },
-    /// Does not apply.
-    Missing,
 }
 
 impl Cell {
@@ -40,7 +38,6 @@ impl Cell {
                 }
                 text
             }
-            Self::Missing => "-".to_owned(),
         }
     }
 
@@ -52,7 +49,6 @@ impl Cell {
             Self::Measured { value, ratio } => {
                 json!({ "value": spread(value), "ratio": ratio.as_ref().map(spread) })
             }
-            Self::Missing => Value::Null,
         }
     }
 }
@@ -182,12 +178,12 @@ mod tests {
             Cell::Text("a".into()),
             Cell::Measured { value, ratio },
         ]);
-        table.row(vec![Cell::Text("longer".into()), Cell::Missing]);
+        table.row(vec![Cell::Text("longer".into()), Cell::Number(2.0, 1)]);
         let expect = "### T\n\na note\n\n\
             | name   |                    M/s |\n\
             | ------ | ---------------------: |\n\
             | a      | 12.3 (9.0-20.0) x0.500 |\n\
-            | longer |                      - |\n";
+            | longer |                    2.0 |\n";
         assert_eq!(table.to_markdown(), expect);
     }
 }
