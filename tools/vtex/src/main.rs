@@ -1,2 +1,3 @@
-//! wip
+//! The `vtex` command.
+
 fn main() {}

@@ -1,0 +1,93 @@
+//! Why a command failed: exit code, who, where, what to do.
+
+use std::fmt;
+use std::io;
+use std::path::Path;
+
+/// Exit codes of the `vtex` command. Scripts depend on the numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum ExitCode {
+    /// All went well.
+    Ok = 0,
+    /// The command line is wrong.
+    Usage = 1,
+    /// A file could not be read or written.
+    Io = 2,
+    /// An input file is not what it should be.
+    InvalidInput = 3,
+    /// Something that should work did not: GPU, adapter, our own bug.
+    Runtime = 4,
+    /// A feature that this version does not have.
+    Unsupported = 5,
+    /// `compare`, `bake --check`: there is a difference.
+    Difference = 7,
+    /// A budget was exceeded.
+    Limit = 8,
+}
+
+/// One failure: one line on stderr and an exit code.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Failure {
+    /// What the process returns.
+    pub code: ExitCode,
+    /// Where it happened and what to do, without a trailing full stop or newline.
+    pub message: String,
+    /// Nothing is printed: the reader of our output went away, which is its right.
+    pub silent: bool,
+}
+
+/// Result of a command or a part of it.
+pub type Outcome<T> = Result<T, Failure>;
+
+impl Failure {
+    /// A failure with a message; newlines in it become spaces, so that one failure is one line.
+    pub fn new(code: ExitCode, message: impl fmt::Display) -> Self {
+        let message = message.to_string();
+        Self {
+            code,
+            message: message.split_whitespace().collect::<Vec<_>>().join(" "),
+            silent: false,
+        }
+    }
+
+    /// The command line is wrong.
+    pub fn usage(message: impl fmt::Display) -> Self {
+        Self::new(ExitCode::Usage, message)
+    }
+
+    /// An input file is not what it should be.
+    pub fn invalid(path: &Path, message: impl fmt::Display) -> Self {
+        Self::new(
+            ExitCode::InvalidInput,
+            format!("{}: {message}", path.display()),
+        )
+    }
+
+    /// Something failed at run time.
+    pub fn runtime(message: impl fmt::Display) -> Self {
+        Self::new(ExitCode::Runtime, message)
+    }
+
+    /// `action` on `path` failed.
+    pub fn io(action: &str, path: &Path, error: &io::Error) -> Self {
+        let mut failure = Self::new(
+            ExitCode::Io,
+            format!("{}: cannot {action}: {error}", path.display()),
+        );
+        // `vtex info x | head -1`: whoever reads us has seen enough.
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            failure.code = ExitCode::Ok;
+            failure.silent = true;
+        }
+        failure
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Failure {}

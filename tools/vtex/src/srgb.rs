@@ -1,0 +1,46 @@
+//! The sRGB transfer function, IEC 61966-2-1.
+
+/// Encoded to linear, both in \[0, 1\].
+pub fn decode(encoded: f32) -> f32 {
+    if encoded <= 0.040_45 {
+        encoded / 12.92
+    } else {
+        ((encoded + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+/// Linear to encoded, both in \[0, 1\].
+pub fn encode(linear: f32) -> f32 {
+    if linear <= 0.003_130_8 {
+        linear * 12.92
+    } else {
+        1.055 * linear.powf(1.0 / 2.4) - 0.055
+    }
+}
+
+/// A value in \[0, 1\] as a byte, rounded; outside it is clamped.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to [0, 255] before the cast, NaN becomes 0"
+)]
+pub fn byte(value: f32) -> u8 {
+    (value * 255.0 + 0.5).clamp(0.0, 255.0) as u8
+}
+
+/// Linear values of the 256 encoded bytes.
+pub fn decode_table() -> [f32; 256] {
+    std::array::from_fn(|code| decode(code as f32 / 255.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_survive_the_round_trip() {
+        for (code, linear) in decode_table().into_iter().enumerate() {
+            assert_eq!(usize::from(byte(encode(linear))), code);
+        }
+    }
+}
