@@ -1,2 +1,135 @@
-//! wip
-fn main() {}
+//! `vtex-bench`: how long bakes, lookups and rays take on this machine, beside their rivals.
+
+mod clock;
+mod count;
+mod device;
+mod lookups;
+mod machine;
+mod queries;
+mod raster;
+mod rays;
+mod report;
+mod rivals;
+mod sfg22;
+mod stages;
+mod subject;
+mod table;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use anyhow::Result;
+use clap::{Parser, ValueEnum};
+use vtex_baker::Resources;
+
+use crate::device::Device;
+use crate::lookups::{count_table, cpu_tables, gpu_tables};
+use crate::machine::Machine;
+use crate::report::Report;
+use crate::rivals::Effort;
+use crate::stages::stages_table;
+use crate::subject::Subject;
+
+/// Times bake stages, lookups a second per filter mode and rays a second, and prints the machine
+/// and the adapter.
+///
+/// Run it as `cargo run --release -p vtex-bench`. Everything in a table is measured in turn within
+/// each round, after one warm-up run that also compiles shaders. A figure is the median of the
+/// rounds with its range in brackets; `x` is its ratio to the table's baseline, the median of the
+/// ratios within rounds. On a busy or shared machine trust the ratios.
+#[derive(Debug, Parser)]
+#[command(version)]
+struct Args {
+    /// SVG files; without any, the samples of `tests/data/svg/paper` and, where the folder exists,
+    /// those of `paper5` in the corpus (`VTEX_CORPUS`, else `../shared/corpus`).
+    files: Vec<PathBuf>,
+    /// Only these parts.
+    #[arg(long, value_delimiter = ',')]
+    only: Vec<Part>,
+    /// Timed runs of everything after the warm-up.
+    #[arg(long, default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..))]
+    rounds: u16,
+    /// Lookups a run on the GPU, in units of 2^18 (one 512 x 512 window).
+    #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..=16))]
+    windows: u16,
+    /// Writes the tables as Markdown.
+    #[arg(long, value_name = "FILE")]
+    markdown: Option<PathBuf>,
+    /// Writes everything as JSON.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+/// What to measure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Part {
+    /// Bake stages of each file.
+    Bake,
+    /// Lookups by the CPU twin.
+    Cpu,
+    /// Lookups on the GPU.
+    Gpu,
+    /// Rays of the path tracer.
+    Rays,
+}
+
+fn main() -> Result<()> {
+    let args = Args::parse();
+    let wanted = |part| args.only.is_empty() || args.only.contains(&part);
+    let effort = Effort {
+        rounds: usize::from(args.rounds),
+        gpu_lookups: usize::from(args.windows) << 18,
+        cpu_lookups: 1 << 18,
+    };
+    let paths = subject::find(&args.files)?;
+    let resources = resources();
+    let machine = Machine::detect();
+    let cores = machine.cores();
+    let device = (wanted(Part::Gpu) || wanted(Part::Rays))
+        .then(Device::open)
+        .transpose()?;
+    let mut report = Report::begin(machine, device.as_ref(), resources.fonts.len())?;
+
+    if wanted(Part::Bake) {
+        report.add(stages_table(&paths, &resources, 1, effort.rounds)?)?;
+        if cores > 1 {
+            report.add(stages_table(&paths, &resources, cores, effort.rounds)?)?;
+        }
+    }
+    let subjects: Vec<Subject> = match wanted(Part::Cpu) || wanted(Part::Gpu) || wanted(Part::Rays)
+    {
+        true => paths
+            .iter()
+            .map(|path| Subject::bake(path, &resources))
+            .collect::<Result<_>>()?,
+        false => Vec::new(),
+    };
+    if wanted(Part::Cpu) {
+        report.add(count_table(&subjects, effort))?;
+        report.add_all(cpu_tables(&subjects, 1, effort)?)?;
+        if cores > 1 {
+            report.add_all(cpu_tables(&subjects, cores, effort)?)?;
+        }
+    }
+    if let Some(device) = device.as_ref().filter(|_| wanted(Part::Gpu)) {
+        rivals::check_queries(device)?;
+        report.add_all(gpu_tables(device, &subjects, effort)?)?;
+        report.add(rivals::sfg22_table(device, effort)?)?;
+        report.add(rivals::minified_table(device, effort)?)?;
+        report.add(rivals::fetch_table(device, effort)?)?;
+    }
+    if let Some(device) = device.as_ref().filter(|_| wanted(Part::Rays)) {
+        let subjects: Vec<(PathBuf, Subject)> = paths.into_iter().zip(subjects).collect();
+        report.add(rays::rays_table(device, &subjects, &resources, effort)?)?;
+    }
+    report.finish(args.markdown.as_deref(), args.json.as_deref())
+}
+
+/// The system's fonts, for drawings with text.
+fn resources() -> Resources {
+    let mut fonts = usvg::fontdb::Database::new();
+    fonts.load_system_fonts();
+    Resources {
+        fonts: Arc::new(fonts),
+    }
+}

@@ -1,0 +1,124 @@
+//! Rays a second of the path tracer with and without textures.
+
+use std::time::{Duration, Instant};
+
+use anyhow::{Context as _, Result};
+use vtex_baker::Resources;
+use vtex_format::VtexFile;
+use vtex_runtime::{LoadOptions, Scene, TraceOptions, Tracer, scene};
+
+use crate::clock::{Trial, interleave};
+use crate::device::Device;
+use crate::rivals::Effort;
+use crate::subject::{Subject, raster_config, read};
+use crate::table::{Cell, Table};
+
+/// The film. Small, since a software driver does about a million rays a second.
+const FILM: [u32; 2] = [240, 160];
+/// Samples a pixel in a run.
+const SAMPLES: u32 = 4;
+/// Longer side of the raster textures. Four of them at 2048, as half floats with their mips, exceed
+/// a binding of core WebGPU.
+const RASTER_SIZE: u32 = 1024;
+/// Objects of the showroom that take a texture.
+const SHOWROOM: usize = 4;
+
+/// The showroom with the first files, then each file on a plane.
+pub(crate) fn rays_table(
+    device: &Device,
+    subjects: &[(std::path::PathBuf, Subject)],
+    resources: &Resources,
+    effort: Effort,
+) -> Result<Table> {
+    let raster = format!("raster {RASTER_SIZE}^2");
+    let columns = ["GPU, million rays/s", &raster, "vector", "no texture"];
+    let mut table = Table::new("Rays of the path tracer", &columns);
+    table.note(format!(
+        "{} x {} pixels, {SAMPLES} samples each, up to {} bounces, ray-cone footprints. The raster \
+         is half floats with mips in a storage buffer, filtered by the same evaluator: the tracer \
+         takes no other texture.",
+        FILM[0],
+        FILM[1],
+        TraceOptions::default().max_bounces,
+    ));
+    let mut rasters = Vec::new();
+    for (path, subject) in subjects {
+        let file = vtex_baker::bake_observed(
+            &read(path)?,
+            &raster_config(RASTER_SIZE),
+            resources,
+            &|_| (),
+        );
+        rasters.push(file.with_context(|| format!("cannot bake {}", subject.name))?);
+    }
+    let vectors: Vec<VtexFile> = subjects
+        .iter()
+        .map(|(_, subject)| subject.file.clone())
+        .collect();
+    let few = |files: &[VtexFile]| files.iter().take(SHOWROOM).cloned().collect();
+    let rooms = [
+        scene::showroom(few(&rasters)),
+        scene::showroom(few(&vectors)),
+        scene::showroom(Vec::new()),
+    ];
+    table.row(row(device, "showroom", &rooms, effort)?);
+    for ((raster, vector), (_, subject)) in rasters.into_iter().zip(vectors).zip(subjects) {
+        let mut bare = scene::plane(vector.clone(), LoadOptions::default());
+        bare.textures.clear();
+        bare.materials
+            .iter_mut()
+            .for_each(|material| material.texture = None);
+        let planes = [
+            scene::plane(raster, LoadOptions::default()),
+            scene::plane(vector, LoadOptions::default()),
+            bare,
+        ];
+        table.row(row(
+            device,
+            &format!("plane, {}", subject.name),
+            &planes,
+            effort,
+        )?);
+    }
+    Ok(table)
+}
+
+fn row(device: &Device, name: &str, scenes: &[Scene], effort: Effort) -> Result<Vec<Cell>> {
+    let mut tracers = Vec::new();
+    for scene in scenes {
+        let options = TraceOptions::for_samples(SAMPLES);
+        let mut tracer = Tracer::new(&device.device, &device.queue, scene, FILM, &options)?;
+        tracer.accumulate(SAMPLES)?;
+        let rays = tracer.stats()?.rays;
+        tracers.push((tracer, usize::try_from(rays)?));
+    }
+    let trials = tracers
+        .iter_mut()
+        .map(|(tracer, rays)| Trial::timed(*rays, || trace(tracer)))
+        .collect();
+    let timings = interleave(trials, effort.rounds)?;
+    let mut cells = vec![Cell::Text(name.to_owned())];
+    cells.extend(
+        timings
+            .iter()
+            .enumerate()
+            .map(|(index, timing)| Cell::Measured {
+                value: timing.millions_a_second(),
+                ratio: (index > 0).then(|| timing.speed_against(&timings[0])),
+            }),
+    );
+    Ok(cells)
+}
+
+/// The same paths every time, so the same number of rays.
+fn trace(tracer: &mut Tracer) -> Result<Duration> {
+    tracer.reset();
+    let before = tracer.stats()?.device_ns;
+    let start = Instant::now();
+    tracer.accumulate(SAMPLES)?;
+    let wall = start.elapsed();
+    let after = tracer.stats()?.device_ns;
+    Ok(before
+        .zip(after)
+        .map_or(wall, |(before, after)| Duration::from_nanos(after - before)))
+}

@@ -1,0 +1,156 @@
+//! One SVG file to measure with: baked, and as the raster texture it stands for.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, Result};
+use vtex_baker::{BakeConfig, Mode, Resources};
+use vtex_format::{Image, VtexFile};
+use vtex_shaders::{FilterMode, PackOptions, pack};
+
+use crate::count::{Count, count};
+use crate::queries::{QuerySet, Screen};
+use crate::raster::RASTER_SIZE;
+
+/// Sides of the lattice of points that judge how busy a window is.
+const PROBES: u16 = 24;
+
+/// The filter modes with the names that columns use.
+pub(crate) const FILTERS: [(&str, FilterMode); 3] = [
+    ("point", FilterMode::Point),
+    ("footprint", FilterMode::Footprint),
+    ("paper", FilterMode::Paper),
+];
+
+/// One SVG with what was baked of it.
+#[derive(Debug)]
+pub(crate) struct Subject {
+    /// File name without its ending.
+    pub(crate) name: String,
+    /// Baked with the defaults.
+    pub(crate) file: VtexFile,
+    /// The same drawing with mips at [`RASTER_SIZE`].
+    pub(crate) raster: Image,
+    screen: Screen,
+    busy_corner: [f32; 2],
+}
+
+impl Subject {
+    /// Reads and bakes a file twice, as vectors and as a raster.
+    pub(crate) fn bake(path: &Path, resources: &Resources) -> Result<Self> {
+        let name = name(path);
+        let svg = read(path)?;
+        let baked = |config: &BakeConfig| {
+            vtex_baker::bake_observed(&svg, config, resources, &|_| ())
+                .with_context(|| format!("cannot bake {name}"))
+        };
+        let file = baked(&BakeConfig::default())?;
+        let raster = canvas_image(baked(&raster_config(RASTER_SIZE))?)
+            .with_context(|| format!("{name} has no raster image"))?;
+        let screen = Screen::new(file.meta.canvas_size);
+        let busy_corner = busiest(&file, screen);
+        Ok(Self {
+            name,
+            file,
+            raster,
+            screen,
+            busy_corner,
+        })
+    }
+
+    /// Columns of the lookup tables: magnified where the drawing is busiest, as a whole at 1x,
+    /// and magnified at random points.
+    pub(crate) fn query_sets(&self, lookups: usize) -> [QuerySet; 3] {
+        [
+            self.screen.close(self.busy_corner, lookups),
+            self.screen.whole(lookups),
+            self.screen.scattered(lookups),
+        ]
+    }
+
+    /// Packed words.
+    pub(crate) fn words(&self, filter: FilterMode) -> Vec<u32> {
+        pack(
+            &self.file,
+            &PackOptions {
+                filter,
+                ..PackOptions::default()
+            },
+        )
+    }
+}
+
+/// The baker's settings for a raster texture of `size` texels along the longer side.
+pub(crate) fn raster_config(size: u32) -> BakeConfig {
+    BakeConfig {
+        mode: Mode::Raster,
+        mip0_size: size,
+        ..BakeConfig::default()
+    }
+}
+
+/// File name without its ending.
+pub(crate) fn name(path: &Path) -> String {
+    path.file_stem()
+        .unwrap_or(path.as_os_str())
+        .to_string_lossy()
+        .into_owned()
+}
+
+/// Reads a file and says which when it cannot.
+pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
+    fs::read(path).with_context(|| format!("cannot read {}", path.display()))
+}
+
+/// `named`, or the default samples; never none.
+pub(crate) fn find(named: &[PathBuf]) -> Result<Vec<PathBuf>> {
+    if !named.is_empty() {
+        return Ok(named.to_owned());
+    }
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let corpus = std::env::var_os("VTEX_CORPUS")
+        .map_or_else(|| root.join("../shared/corpus"), PathBuf::from);
+    let mut files = svg_files(&root.join("tests/data/svg/paper"));
+    files.extend(svg_files(&corpus.join("paper5")));
+    anyhow::ensure!(!files.is_empty(), "no samples found; name SVG files");
+    Ok(files)
+}
+
+/// SVG files of a folder by name; none when it cannot be listed.
+fn svg_files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let paths = entries.map(|entry| entry.path());
+    let mut paths: Vec<PathBuf> = paths
+        .filter(|path| path.extension().is_some_and(|ending| ending == "svg"))
+        .collect();
+    paths.sort();
+    paths
+}
+
+/// The image that holds the whole canvas.
+fn canvas_image(file: VtexFile) -> Option<Image> {
+    file.images.into_iter().max_by_key(|image| image.size)
+}
+
+/// Corner of the 8x window whose lookups visit the most entries; ties go to the first.
+fn busiest(file: &VtexFile, screen: Screen) -> [f32; 2] {
+    let entries = |corner: &[f32; 2]| {
+        let set = screen.close(*corner, 1);
+        let [width, height] = set.extent_uv();
+        let probe = |i: u16| {
+            let at = |k: u16| (f32::from(k) + 0.5) / f32::from(PROBES);
+            [
+                corner[0] + at(i % PROBES) * width,
+                corner[1] + at(i / PROBES) * height,
+            ]
+        };
+        let visited = |uv| {
+            let Count { entries, .. } = count(file, uv, 0.0, FilterMode::Point);
+            entries
+        };
+        (0..PROBES * PROBES).map(probe).map(visited).sum::<u64>()
+    };
+    let corners: Vec<[f32; 2]> = screen.close_corners().collect();
+    let best = corners.iter().rev().max_by_key(|corner| entries(corner));
+    best.copied().unwrap_or_default()
+}
