@@ -12,8 +12,11 @@ use crate::svg::{Plan, Step, Subtree};
 use crate::warning::Warnings;
 
 /// Canvas sizes that a shape may reach beyond the canvas. usvg's coordinates are f32: further out
-/// they are sixteenths of a canvas apart and the outline is noise, often of millions of segments.
+/// they are sixteenths of a canvas apart. A rectangle may still mean a ground without end, but the
+/// arcs of a circle are noise there, and millions of them.
 const MAX_REACH: f64 = 1_048_576.0;
+/// Path elements of a shape that may reach further.
+const MAX_FAR_ELEMENTS: usize = 256;
 /// Path elements of all outlines together, strokes expanded; the stages that follow hold several
 /// copies of each.
 const MAX_OUTLINE_ELEMENTS: usize = 1 << 22;
@@ -244,7 +247,8 @@ impl<'a> Walker<'a, '_> {
             return;
         }
         let reach = MAX_REACH * self.quality.canvas_longer_side;
-        if bounds.abs().width().max(bounds.abs().height()) > reach {
+        let far = bounds.abs().width().max(bounds.abs().height()) > reach;
+        if far && outline.elements().len() > MAX_FAR_ELEMENTS {
             let message = "a shape reaches too far beyond the canvas and is left out";
             self.warnings
                 .push(WarningCode::PathFallback, "path", place.element, message);
