@@ -11,7 +11,7 @@ use crate::queries::QuerySet;
 /// A 32-bit copy destination that mapping wants: two timestamps of 8 bytes.
 const STAMPS_BYTES: u64 = 16;
 
-/// A device with every limit its adapter has, so that rivals as big as [SFG22]'s 240 layers fit.
+/// A device with every limit its adapter has, so that rivals as big as \[SFG22\]'s 240 layers fit.
 #[derive(Debug)]
 pub(crate) struct Device {
     pub(crate) device: wgpu::Device,
