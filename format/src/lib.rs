@@ -8,6 +8,7 @@
 //! Reading never panics and never allocates more than [`Limits`] allows, whatever the bytes.
 
 mod cell;
+mod curve;
 mod error;
 mod file;
 mod image;
@@ -21,6 +22,10 @@ mod shape;
 mod spec;
 
 pub use cell::{CELL_TAG_SHIFT, CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL};
+pub use curve::{
+    CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CurveHeader, CurveLattice,
+    MAX_CURVE_SEGMENTS, MAX_CURVE_STEPS,
+};
 pub use error::{ReadError, WriteError};
 pub use file::VtexFile;
 pub use image::{Image, MAX_MIPS};

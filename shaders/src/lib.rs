@@ -4,4 +4,5 @@
 //! Both sides read the same packed words ([`pack`]), so a lookup on the CPU and on the GPU walks
 //! the same numbers.
 
+pub mod cpu;
 pub mod layout;

@@ -1,0 +1,3 @@
+//! The evaluator's Rust twin.
+
+pub mod curve;
