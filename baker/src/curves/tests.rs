@@ -151,7 +151,13 @@ fn monotone_ranges(outline: &BezPath) -> Vec<(PathSeg, [f64; 2], [Point; 2])> {
     for segment in outline.segments() {
         for range in segment.extrema_ranges() {
             let t = [range.start, range.end];
-            ranges.push((segment, t, t.map(|t| segment.eval(t))));
+            // A line's eval(1) is not bit-exactly its end.
+            let at = |t: f64| match t {
+                0.0 => segment.start(),
+                1.0 => segment.end(),
+                _ => segment.eval(t),
+            };
+            ranges.push((segment, t, t.map(at)));
         }
     }
     ranges
@@ -185,7 +191,7 @@ fn exact_winding(ranges: &[(PathSeg, [f64; 2], [Point; 2])], p: Point) -> i32 {
 }
 
 fn edge_distance(outline: &BezPath, p: Point) -> f64 {
-    let nearest = |s: PathSeg| s.nearest(p, 1e-2).distance_sq;
+    let nearest = |s: PathSeg| s.nearest(p, 1e-4).distance_sq;
     outline
         .segments()
         .map(nearest)
@@ -244,6 +250,8 @@ struct Mismatches {
     far: u32,
     /// Largest distance of a mismatch from the outline as drawn.
     worst_units: f64,
+    /// One that is far: where, the winding found, and by both truths.
+    example: Option<(Lookup, i32, [i32; 2])>,
 }
 
 /// Half the lookups anywhere on the grid, half near an edge or on the heights and columns where
@@ -286,6 +294,7 @@ fn compare(outline: &BezPath, baked: &Baked, samples: u32, seed: u64) -> Mismatc
             let distance = edge_distance(&scaled, lookup.at);
             found.worst_units = distance.max(found.worst_units);
             if distance > ERROR_UNITS {
+                found.example = Some((lookup, winding, truths));
                 found.far += 1;
             } else {
                 found.near += 1;
