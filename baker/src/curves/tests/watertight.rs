@@ -129,3 +129,18 @@ fn any_outline_agrees_with_brute_force() {
     })
     .budget_ms(3000);
 }
+
+/// Found by the property test: lookups at heights where lines end.
+#[test]
+fn heights_where_lines_end() {
+    let path = "M-0.75,4 Q5.75,4 -0.74632,3.25179 L5.5,2.75 Q4.75,-0.75 5.75,5.75 Q1.5,-0.25 5.5,1.75 \
+                L4.50537,0.99541 L4.9914,5.75416 Z M-1.75,1.25 C2.50824,1.7563 5.00741,-1.49455 1.25,1 \
+                L3.50649,-1.25114 Z M5.75,4.75 L3.25,-1 L5.00506,5.75664 \
+                C2.75,2 3.9906,5.00293 3.49905,4.75108 L3.75,4.5 Z";
+    let outline = BezPath::from_svg(path).expect("a path of this file");
+    for margin in [0.0, 0.125] {
+        let baked = bake(&outline, FillRule::NonZero, params(4, margin));
+        let found = compare(&outline, &baked, 20_000, 1);
+        assert_eq!(found.far, 0, "{found:?}");
+    }
+}
