@@ -61,6 +61,7 @@
 mod cell;
 mod check;
 mod codec;
+mod curve;
 mod directory;
 mod error;
 mod file;
@@ -84,6 +85,10 @@ mod tile;
 mod write;
 
 pub use cell::{CELL_TAG_SHIFT, CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL};
+pub use curve::{
+    CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CurveHeader, CurveLattice,
+    MAX_CURVE_SEGMENTS, MAX_CURVE_STEPS,
+};
 pub use directory::{Directory, directory};
 pub use error::{ReadError, WriteError};
 pub use file::VtexFile;

@@ -9,6 +9,7 @@ mod cell;
 pub mod color;
 mod composite;
 mod coverage;
+pub mod curve;
 mod entry;
 mod footprint;
 mod image;
