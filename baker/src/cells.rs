@@ -5,7 +5,13 @@ use std::collections::BTreeMap;
 use vtex_format::{CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL};
 
 use crate::{
-    classify::ShapeCells, error::BakeError, grid::Lattice, paint_table::PaintTable, placed::Placed,
+    cover::Cover,
+    curves::{record::encode_record, sweep::CellCurves},
+    drawing::FillRule,
+    error::BakeError,
+    grid::Lattice,
+    paint_table::PaintTable,
+    placed::Placed,
     subset::Packing,
 };
 
@@ -14,8 +20,8 @@ use crate::{
 pub(crate) struct CellInput<'a> {
     /// The items.
     pub(crate) placed: &'a [Placed],
-    /// Their classification; empty for patches.
-    pub(crate) cells: &'a [ShapeCells],
+    /// Where they show; empty for patches.
+    pub(crate) covers: &'a [Cover],
     /// Their paint, or their image for a patch.
     pub(crate) paint_or_image: &'a [u32],
     /// Their ranks.
@@ -33,6 +39,8 @@ pub(crate) struct CellLists {
     pub(crate) entries: Vec<u32>,
     /// Tiles, layer by layer and cell by cell.
     pub(crate) tiles: Vec<TileDraft>,
+    /// Curve records, one after the other.
+    pub(crate) curves: Vec<u32>,
 }
 
 /// A tile that some cell lists.
@@ -48,10 +56,21 @@ pub(crate) struct TileDraft {
 
 /// An entry before tiles have indices.
 #[derive(Clone, Debug, PartialEq)]
-enum Draft {
+enum Draft<'a> {
     Full { paint: u32 },
     Tile { paint: u32, tile: TileDraft },
+    Curves(CurvesDraft<'a>),
     Image { image: u32 },
+}
+
+/// Shapes of one cell that share a record.
+#[derive(Clone, Debug, PartialEq)]
+struct CurvesDraft<'a> {
+    paint: u32,
+    rank: u32,
+    rule: FillRule,
+    parts: Vec<&'a CellCurves>,
+    words: Vec<u32>,
 }
 
 /// Builds every cell's list.
@@ -60,7 +79,7 @@ pub(crate) fn build_cells(
     lattice: &Lattice,
     paints: &mut PaintTable,
 ) -> Result<CellLists, BakeError> {
-    let drafts: Vec<Vec<Draft>> = items_by_cell(input, lattice)
+    let drafts: Vec<Vec<Draft<'_>>> = items_by_cell(input, lattice)
         .into_iter()
         .zip(0_u32..)
         .map(|(items, cell)| draft_cell(input, items, cell, paints))
@@ -81,6 +100,7 @@ pub(crate) fn build_cells(
             ..CellLists::default()
         },
         shared: BTreeMap::new(),
+        records: BTreeMap::new(),
         paints,
     };
     for cell in &drafts {
@@ -93,12 +113,12 @@ pub(crate) fn build_cells(
 /// For every cell the items in it, in painter's order, and whether they cover it whole.
 fn items_by_cell(input: &CellInput<'_>, lattice: &Lattice) -> Vec<Vec<(u32, bool)>> {
     let mut by_cell = vec![Vec::new(); lattice.cell_count()];
-    for (item, (placed, cells)) in (0_u32..).zip(input.placed.iter().zip(input.cells)) {
+    for (item, (placed, cover)) in (0_u32..).zip(input.placed.iter().zip(input.covers)) {
         if placed.is_shape() {
-            for &cell in &cells.listed {
+            for &cell in &cover.cells.listed {
                 by_cell[cell as usize].push((item, false));
             }
-            for &cell in &cells.full {
+            for &cell in &cover.cells.full {
                 by_cell[cell as usize].push((item, true));
             }
         } else if let Some([columns, rows]) = lattice.cells_in(placed.bounds()) {
@@ -114,12 +134,12 @@ fn items_by_cell(input: &CellInput<'_>, lattice: &Lattice) -> Vec<Vec<(u32, bool
 }
 
 /// Sorts, merges, folds and cuts one cell's items into its entries, front to back.
-fn draft_cell(
-    input: &CellInput<'_>,
+fn draft_cell<'a>(
+    input: &CellInput<'a>,
     mut items: Vec<(u32, bool)>,
     cell: u32,
     paints: &mut PaintTable,
-) -> Vec<Draft> {
+) -> Vec<Draft<'a>> {
     // Members of a rank do not meet, so their order is free and equal paints may come together.
     let free = !input.packing.forced;
     items.sort_unstable_by_key(|&(item, _)| {
@@ -127,12 +147,12 @@ fn draft_cell(
         let paint = if free { input.paint_or_image[index] } else { 0 };
         std::cmp::Reverse((input.packing.ranks[index], paint, item))
     });
-    let mut drafts: Vec<Draft> = Vec::new();
+    let mut drafts: Vec<Draft<'a>> = Vec::new();
     for (item, full) in items {
         let draft = draft_item(input, item, full, cell);
         let opaque_full = matches!(draft, Draft::Full { paint } if paints.is_opaque(paint));
         let merged = match drafts.last_mut() {
-            Some(front) => merge(front, &draft, paints),
+            Some(front) => merge(front, &draft, free, paints),
             None => false,
         };
         if !merged {
@@ -145,7 +165,7 @@ fn draft_cell(
     drafts
 }
 
-fn draft_item(input: &CellInput<'_>, item: u32, full: bool, cell: u32) -> Draft {
+fn draft_item<'a>(input: &CellInput<'a>, item: u32, full: bool, cell: u32) -> Draft<'a> {
     let index = item as usize;
     let paint = input.paint_or_image[index];
     if !input.placed[index].is_shape() {
@@ -154,7 +174,19 @@ fn draft_item(input: &CellInput<'_>, item: u32, full: bool, cell: u32) -> Draft 
     if full {
         return Draft::Full { paint };
     }
-    let layer = input.layer_of_rank[input.packing.ranks[index] as usize];
+    let rank = input.packing.ranks[index];
+    if let Some(part) = input.covers[index].curves_in(cell) {
+        let rule = input.placed[index].rule;
+        return Draft::Curves(CurvesDraft {
+            paint,
+            rank,
+            rule,
+            // Every part fits a record of its own, or the shape would not be curves.
+            words: encode_record(&[part], rule).unwrap_or_default(),
+            parts: vec![part],
+        });
+    }
+    let layer = input.layer_of_rank[rank as usize];
     let tile = TileDraft {
         layer,
         cell,
@@ -163,8 +195,14 @@ fn draft_item(input: &CellInput<'_>, item: u32, full: bool, cell: u32) -> Draft 
     Draft::Tile { paint, tile }
 }
 
-/// Takes `back` into `front` where one entry can stand for both.
-fn merge(front: &mut Draft, back: &Draft, paints: &mut PaintTable) -> bool {
+/// Takes `back` into `front` where one entry can stand for both. `apart` says that members of a
+/// rank do not meet.
+fn merge<'a>(
+    front: &mut Draft<'a>,
+    back: &Draft<'a>,
+    apart: bool,
+    paints: &mut PaintTable,
+) -> bool {
     match (front, back) {
         (Draft::Full { paint }, Draft::Full { paint: behind }) => {
             *paint = paints.intern_over(*paint, *behind);
@@ -181,7 +219,23 @@ fn merge(front: &mut Draft, back: &Draft, paints: &mut PaintTable) -> bool {
             tile.items.sort_unstable();
             true
         }
+        (Draft::Curves(front), Draft::Curves(back)) if apart => front.join(back),
         _ => false,
+    }
+}
+
+impl CurvesDraft<'_> {
+    fn join(&mut self, other: &Self) -> bool {
+        let alike = self.paint == other.paint && self.rank == other.rank && self.rule == other.rule;
+        if !alike {
+            return false;
+        }
+        let parts = [self.parts.as_slice(), &other.parts].concat();
+        let Ok(words) = encode_record(&parts, self.rule) else {
+            return false;
+        };
+        (self.parts, self.words) = (parts, words);
+        true
     }
 }
 
@@ -189,11 +243,13 @@ struct ListEncoder<'a> {
     lists: CellLists,
     /// Offsets of the lists so far, so that equal ones are stored once.
     shared: BTreeMap<Vec<u32>, u32>,
+    /// Offsets of the records so far.
+    records: BTreeMap<Vec<u32>, u32>,
     paints: &'a PaintTable,
 }
 
 impl ListEncoder<'_> {
-    fn cell_word(&mut self, drafts: &[Draft]) -> Result<u32, BakeError> {
+    fn cell_word(&mut self, drafts: &[Draft<'_>]) -> Result<u32, BakeError> {
         let word = match drafts {
             [] => CellWord::Empty,
             [Draft::Full { paint }] => CellWord::Solid { paint: *paint },
@@ -205,7 +261,7 @@ impl ListEncoder<'_> {
             .ok_or_else(|| BakeError::Limit("more paints or entries than a cell can name".into()))
     }
 
-    fn list_offset(&mut self, list: &[Draft]) -> Result<u32, BakeError> {
+    fn list_offset(&mut self, list: &[Draft<'_>]) -> Result<u32, BakeError> {
         if list.len() > MAX_ENTRIES_PER_CELL as usize {
             return Err(BakeError::Limit(format!(
                 "{} shapes show in one cell of the grid, at most {MAX_ENTRIES_PER_CELL} can",
@@ -214,7 +270,7 @@ impl ListEncoder<'_> {
         }
         let mut words = Vec::with_capacity(2 * list.len());
         for (i, draft) in list.iter().enumerate() {
-            let mut entry = self.entry(draft);
+            let mut entry = self.entry(draft)?;
             entry.last = i + 1 == list.len();
             let encoded = entry.encode();
             words.extend(encoded.ok_or_else(|| {
@@ -230,9 +286,13 @@ impl ListEncoder<'_> {
         Ok(offset)
     }
 
-    fn entry(&self, draft: &Draft) -> Entry {
+    fn entry(&mut self, draft: &Draft<'_>) -> Result<Entry, BakeError> {
         let (kind, index, data) = match draft {
             Draft::Full { paint } => (EntryKind::Full, *paint, 0),
+            Draft::Curves(curves) => {
+                let record = self.record_offset(&curves.words)?;
+                (EntryKind::Curves, curves.paint, record)
+            }
             Draft::Image { image } => (EntryKind::Image, *image, 0),
             Draft::Tile { paint, tile } => {
                 let tile = self.lists.tiles.partition_point(|other| other < tile);
@@ -240,12 +300,24 @@ impl ListEncoder<'_> {
                 (EntryKind::Msdf, *paint, tile)
             }
         };
-        Entry {
+        Ok(Entry {
             kind,
             last: false,
             opaque: kind != EntryKind::Image && self.paints.is_opaque(index),
             index,
             data,
+        })
+    }
+
+    fn record_offset(&mut self, words: &[u32]) -> Result<u32, BakeError> {
+        if let Some(&offset) = self.records.get(words) {
+            return Ok(offset);
         }
+        let curves = &mut self.lists.curves;
+        let offset = u32::try_from(curves.len())
+            .map_err(|_| BakeError::Limit("the cells' curves are too many".into()))?;
+        curves.extend(words);
+        self.records.insert(words.to_vec(), offset);
+        Ok(offset)
     }
 }

@@ -15,6 +15,8 @@ pub enum Mode {
     Auto,
     /// Every shape an MSDF.
     Msdf,
+    /// Every shape exact curves.
+    Curves,
     /// The whole canvas a raster image.
     Raster,
 }
@@ -32,6 +34,9 @@ pub struct BakeConfig {
     pub distance_range_texels: f32,
     /// Largest magnification that geometry is prepared for; 1 shows the canvas at 512 pixels.
     pub max_zoom: f32,
+    /// How far a distance field may displace an edge, in pixels at `max_zoom`, before the shape
+    /// becomes curves; for [`Mode::Auto`].
+    pub error_px: f64,
     /// Put all shapes into one layer, \[SFG22\]'s "merge all".
     pub merge: bool,
     /// Output coverage only.
@@ -58,6 +63,7 @@ impl Default for BakeConfig {
             msdf_size: 1024,
             distance_range_texels: 4.0,
             max_zoom: 64.0,
+            error_px: 0.1,
             merge: false,
             mask: false,
             smoothing: 1.0 / 64.0,
@@ -97,6 +103,10 @@ impl BakeConfig {
             (
                 (1.0..=4096.0).contains(&self.max_zoom),
                 "maximum zoom must lie in 1..=4096",
+            ),
+            (
+                self.error_px > 0.0 && self.error_px.is_finite(),
+                "error bound must be positive",
             ),
             (
                 self.smoothing > 0.0 && self.smoothing <= 0.5,

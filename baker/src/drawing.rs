@@ -69,3 +69,9 @@ pub(crate) struct Patch {
     /// `id` of the element, may be empty.
     pub(crate) element: String,
 }
+
+/// A coordinate as the file stores it.
+#[expect(clippy::cast_possible_truncation, reason = "stored as f32")]
+pub(crate) fn to_f32(x: f64) -> f32 {
+    x as f32
+}

@@ -1,9 +1,12 @@
 //! The cell grid and the lattice of MSDF texels: which numbers, and how the canvas lies on them.
 
 use kurbo::{Affine, Rect};
-use vtex_format::Grid;
+use vtex_format::{Grid, MAX_TEXELS_PER_CELL};
 
-use crate::geometry::floor_index;
+use crate::{
+    drawing::{Drawing, Item, to_f32},
+    geometry::floor_index,
+};
 
 /// Texels along a cell unless the grid would leave [`MIN_CELLS`]..=[`MAX_CELLS`]. Measured on the
 /// Tiger at 1024 texels for 4, 6 and 8: 970, 905 and 889 KiB stored, 4.1, 4.3 and 4.8 MiB raw,
@@ -13,6 +16,9 @@ const TEXELS_PER_CELL: u32 = 6;
 const MIN_CELLS: u32 = 16;
 /// Cells along the longer side of the largest grid: 1 MiB of cell words when square.
 const MAX_CELLS: u32 = 512;
+/// Segments of a drawing, and cells along the longer side of its grid when all are curves.
+/// Measured, see [`curve_cells`].
+const CURVE_CELLS: u32 = 64;
 /// Where the canvas' corner lies in the first cell. An irrational-looking fraction keeps edges at
 /// round coordinates off the lattice lines, where they would lie in two rows of cells.
 const LATTICE_OFFSET: [f32; 2] = [0.381_966, 0.276_393_2];
@@ -35,7 +41,19 @@ impl Lattice {
         let cells = msdf_size
             .div_ceil(TEXELS_PER_CELL)
             .clamp(MIN_CELLS, MAX_CELLS);
-        let texels_per_cell = msdf_size.div_ceil(cells).clamp(1, 64);
+        Self::with_cells(canvas_size, msdf_size, cells)
+    }
+
+    /// The grid of a drawing whose shapes are all curves. `msdf_size` is then no more than the unit
+    /// of distances.
+    pub(crate) fn for_curves(drawing: &Drawing, msdf_size: u32, mip0_size: u32) -> Self {
+        // Boxes reach one cell beyond their cells at most, and a ramp half a texel of mip 0.
+        let cells = curve_cells(segment_count(drawing)).min(mip0_size.max(1));
+        Self::with_cells(drawing.canvas_size, msdf_size, cells)
+    }
+
+    fn with_cells(canvas_size: [f64; 2], msdf_size: u32, cells: u32) -> Self {
+        let texels_per_cell = msdf_size.div_ceil(cells).clamp(1, MAX_TEXELS_PER_CELL);
         let longer = canvas_size[0].max(canvas_size[1]);
         let scale = canvas_size.map(|side| to_f32(side / longer * f64::from(cells)));
         // Exactly the evaluator's arithmetic at uv = 1, the largest it asks for.
@@ -104,19 +122,27 @@ impl Lattice {
 
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "the grid is stored in f32 and everything follows the stored numbers"
-)]
-fn to_f32(x: f64) -> f32 {
-    x as f32
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "at most MAX_CELLS and not negative"
 )]
 fn to_cells(x: f32) -> u32 {
     x as u32 + 1
+}
+
+/// Segments of all outlines.
+fn segment_count(drawing: &Drawing) -> usize {
+    let count = |item: &Item| match item {
+        Item::Shape(shape) => shape.outline.elements().len(),
+        Item::Patch(_) => 0,
+    };
+    drawing.items.iter().map(count).sum()
+}
+
+fn curve_cells(_segments: usize) -> u32 {
+    std::env::var("VTEX_CELLS")
+        .ok()
+        .and_then(|t| t.parse().ok())
+        .unwrap_or(CURVE_CELLS)
 }
 
 fn to_cells_f64(x: f64) -> u32 {

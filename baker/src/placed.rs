@@ -7,7 +7,8 @@ use crate::{
     drawing::{Drawing, FillRule, Item},
     geometry::Region,
     grid::Lattice,
-    prepare::{Note, prepare},
+    judge::{Coverage, Verdict},
+    prepare::{Note, Prepared, clean, prepare},
 };
 
 /// One item in lattice steps. Its index is its place in the painter's order.
@@ -32,6 +33,8 @@ pub(crate) enum PlacedKind {
         color: [f32; 4],
         /// What preparation did.
         note: Note,
+        /// What it becomes.
+        verdict: Verdict,
     },
     /// A raster image in a rectangle.
     Patch,
@@ -48,7 +51,7 @@ impl Placed {
         }
     }
 
-    /// Whether it has distance fields.
+    /// Whether it is geometry.
     pub(crate) fn is_shape(&self) -> bool {
         matches!(self.kind, PlacedKind::Shape { .. })
     }
@@ -60,14 +63,37 @@ impl Placed {
 }
 
 /// Prepares and places every item of `drawing`.
-pub(crate) fn place(drawing: &Drawing, lattice: &Lattice) -> Vec<Placed> {
+pub(crate) fn place(drawing: &Drawing, lattice: &Lattice, verdicts: &[Verdict]) -> Vec<Placed> {
     let longer = drawing.canvas_size[0].max(drawing.canvas_size[1]);
-    let place_one = |item: &Item| match item {
+    let items = drawing.items.par_iter().zip(verdicts);
+    items
+        .map(|(item, &verdict)| place_item(item, lattice, longer, verdict))
+        .collect()
+}
+
+/// Prepares and places one item of a drawing whose longer side is `canvas_longer` units.
+pub(crate) fn place_item(
+    item: &Item,
+    lattice: &Lattice,
+    canvas_longer: f64,
+    verdict: Verdict,
+) -> Placed {
+    match item {
         Item::Shape(shape) => {
-            let prepared = prepare(shape, longer);
+            let prepared = match verdict.coverage {
+                Coverage::Msdf => prepare(shape, canvas_longer),
+                // Windings take care of overlaps, and an edge that two shapes share must stay
+                // the same in both.
+                Coverage::Curves => Prepared {
+                    outline: clean(&shape.outline),
+                    rule: shape.fill_rule,
+                    note: Note::Plain,
+                },
+            };
             let kind = PlacedKind::Shape {
                 color: shape.color,
                 note: prepared.note,
+                verdict,
             };
             let outline = lattice.lattice_from_canvas * prepared.outline;
             Placed::new(outline, prepared.rule, kind)
@@ -76,6 +102,5 @@ pub(crate) fn place(drawing: &Drawing, lattice: &Lattice) -> Vec<Placed> {
             let outline = lattice.lattice_from_canvas * patch.rect.to_path(0.1);
             Placed::new(outline, FillRule::NonZero, PlacedKind::Patch)
         }
-    };
-    drawing.items.par_iter().map(place_one).collect()
+    }
 }

@@ -80,7 +80,7 @@ pub(crate) fn prepare(shape: &Shape, canvas_longer: f64) -> Prepared {
 
 /// Closes every contour and leaves out contours with a non-finite point, empty segments and
 /// handles of no length.
-fn clean(outline: &BezPath) -> BezPath {
+pub(crate) fn clean(outline: &BezPath) -> BezPath {
     let mut cleaned = BezPath::new();
     for contour in contours(outline) {
         let segments: Vec<PathSeg> = contour.segments().filter_map(straighten).collect();
