@@ -73,7 +73,8 @@ pub(crate) fn assemble(
         paint: paints.intern(config.stroke_color.unwrap_or([0.0, 0.0, 0.0, 1.0])),
     });
     let warnings = records::warnings(&mut drawing, &placed, &packing, &lists);
-    let curve_lattice = curve_lattice(&placed, &lattice, &scales);
+    let curve_lattice =
+        curve_lattice(&placed, &lattice, &scales).filter(|_| !lists.curves.is_empty());
     let meta = records::meta(&drawing, config, &lattice, curve_lattice, &scales, outline);
     let shapes = records::shape_records(&input, &lattice);
     let layers = layers.records(&lists);
@@ -126,7 +127,7 @@ fn pack_items(placed: &[Placed], lattice: &Lattice, scales: &Scales, merge: bool
     }
 }
 
-/// Layers are the ranks that hold shapes.
+/// Layers are the ranks that hold shapes with distance fields.
 struct Layers {
     of_rank: Vec<u32>,
     shape_counts: Vec<u32>,
@@ -136,7 +137,7 @@ impl Layers {
     fn new(placed: &[Placed], packing: &Packing) -> Self {
         let mut shapes_of_rank = vec![0; packing.count as usize];
         for (item, &rank) in placed.iter().zip(&packing.ranks) {
-            shapes_of_rank[rank as usize] += u32::from(item.is_shape());
+            shapes_of_rank[rank as usize] += u32::from(item.is_msdf());
         }
         let mut next = 0;
         let of_rank = shapes_of_rank

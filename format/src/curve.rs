@@ -1,5 +1,7 @@
 //! Curve records: the exact outline of a shape inside one cell.
 
+use serde::{Deserialize, Serialize};
+
 /// Most straight lines, and most quadratics, of one record: 11 bits. Bounds every evaluator loop;
 /// a cell that needs more gets several records or another kind of coverage.
 pub const MAX_CURVE_SEGMENTS: u32 = (1 << 11) - 1;
@@ -24,7 +26,7 @@ const BASE_LIMIT: i32 = 1 << 9;
 /// `margin_units`, origin at its top left. `unit = q * units_per_cell + margin_units`, where `q`
 /// is the position inside the cell. The lattices of neighbouring cells are one and the same, so a
 /// point that several boxes or several shapes share is the same point in all of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CurveLattice {
     /// Units along a cell's side.
     pub units_per_cell: u32,
@@ -52,9 +54,10 @@ impl CurveLattice {
         })
     }
 
-    /// Side of a box in units, at most 65535.
+    /// Side of a box in units; a box of more than 65535 is malformed.
     pub fn box_units(self) -> u32 {
-        self.units_per_cell + 2 * self.margin_units
+        self.units_per_cell
+            .saturating_add(self.margin_units.saturating_mul(2))
     }
 }
 

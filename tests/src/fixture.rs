@@ -35,6 +35,7 @@ pub fn random_texture(seed: u64, features: u32) -> VtexFile {
             distance_range_texels: DISTANCE_RANGE_TEXELS,
             max_zoom: 1.0,
             sampler: random_settings(r, features),
+            curve_lattice: None,
         },
         spec: SpecKey {
             abi: SHADER_ABI,
@@ -57,6 +58,7 @@ pub fn random_texture(seed: u64, features: u32) -> VtexFile {
         layers: Vec::new(),
         cells: Vec::new(),
         entries: Vec::new(),
+        curves: Vec::new(),
         tiles: Vec::new(),
         images: Vec::new(),
         provenance: None,

@@ -33,6 +33,7 @@ pub(crate) fn row_of(columns: u32) -> VtexFile {
         distance_range_texels: RANGE,
         max_zoom: 1.0,
         sampler: SamplerSettings::default(),
+        curve_lattice: None,
     };
     VtexFile {
         meta,
@@ -47,6 +48,7 @@ pub(crate) fn row_of(columns: u32) -> VtexFile {
         layers: Vec::new(),
         cells: vec![0; columns as usize],
         entries: Vec::new(),
+        curves: Vec::new(),
         tiles: Vec::new(),
         images: Vec::new(),
         provenance: None,

@@ -116,6 +116,10 @@ pub struct BakeOptions {
     /// Largest magnification the geometry is prepared for; 1 shows the canvas at 512 pixels
     #[arg(long, value_name = "Z")]
     pub max_zoom: Option<f32>,
+    /// Pixels at the largest zoom by which a distance field may displace an edge before its shape
+    /// becomes curves
+    #[arg(long, value_name = "PX")]
+    pub error: Option<f64>,
     /// Texels of mip 0's longer side
     #[arg(long, value_name = "N")]
     pub size: Option<u32>,
@@ -167,7 +171,7 @@ pub enum BakeMode {
     Auto,
     /// Distance fields
     Msdf,
-    /// Exact curves (not in this version)
+    /// Exact curves
     Curves,
     /// One raster image with mips
     Raster,

@@ -20,10 +20,7 @@ pub fn config(options: &BakeOptions) -> Outcome<BakeConfig> {
         BakeMode::Auto => Mode::Auto,
         BakeMode::Msdf => Mode::Msdf,
         BakeMode::Raster => Mode::Raster,
-        BakeMode::Curves => {
-            let message = "--mode curves is not in this version; use auto, msdf or raster";
-            return Err(Failure::new(ExitCode::Unsupported, message));
-        }
+        BakeMode::Curves => Mode::Curves,
     };
     let address = options.address.map(|address| match address {
         Address::Clamp => AddressMode::Clamp,
@@ -33,6 +30,7 @@ pub fn config(options: &BakeOptions) -> Outcome<BakeConfig> {
     });
     Ok(BakeConfig {
         mode,
+        error_px: options.error.unwrap_or(default.error_px),
         max_zoom: options.max_zoom.unwrap_or(default.max_zoom),
         mip0_size: options.size.unwrap_or(default.mip0_size),
         msdf_size: options.msdf_size.unwrap_or(default.msdf_size),
