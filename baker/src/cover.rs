@@ -13,6 +13,7 @@ use crate::{
         sweep::{CellCurves, CutParams, cut_to_cells},
     },
     drawing::{Drawing, to_f32},
+    geometry::floor_index,
     grid::Lattice,
     judge::{Coverage, PIXELS_AT_ZOOM_1, Reason, Verdict},
     placed::{Placed, PlacedKind, place_item},
@@ -21,6 +22,11 @@ use crate::{
 
 /// How far lowering may move a curve, and making lines of flat ones, in pixels at maximum zoom.
 const TOLERANCE_PX: f64 = 0.05;
+/// Width of a unit of curve records in pixels at maximum zoom, unless records cannot be that fine.
+/// A point is off by half a unit.
+const UNIT_PX: f64 = 0.04;
+/// Units along a cell at least, so that rounding never shows at low zooms either.
+const MIN_UNITS_PER_CELL: usize = 1024;
 /// No tolerance is smaller: a unit is what rounding costs.
 const MIN_TOLERANCE_UNITS: f64 = 0.5;
 
@@ -46,13 +52,27 @@ pub(crate) fn curve_lattice(
     placed: &[Placed],
     lattice: &Lattice,
     scales: &Scales,
+    max_zoom: f32,
 ) -> Option<CurveLattice> {
     if !placed.iter().any(Placed::is_curves) {
         return None;
     }
     // Wider ramps than a cell are cut off; mips serve such footprints unless they are tiny.
-    let margin_cells = scales.distances.margin / lattice.cell_steps();
-    CurveLattice::new(to_f32(margin_cells.min(1.0)))
+    let margin_cells = (scales.distances.margin / lattice.cell_steps()).min(1.0);
+    let finest = CurveLattice::new(to_f32(margin_cells))?;
+    // Finer than what anyone sees costs bytes: the low bits of coordinates are noise.
+    let cells = lattice.longer_steps() / lattice.cell_steps();
+    let wanted = PIXELS_AT_ZOOM_1 * f64::from(max_zoom) / (UNIT_PX * cells);
+    if wanted >= f64::from(finest.units_per_cell) {
+        return Some(finest);
+    }
+    let units_per_cell = floor_index(wanted.ceil()).max(MIN_UNITS_PER_CELL);
+    #[expect(clippy::cast_precision_loss, reason = "a few thousand")]
+    let margin_units = floor_index((margin_cells * units_per_cell as f64).ceil());
+    Some(CurveLattice {
+        units_per_cell: u32::try_from(units_per_cell).ok()?,
+        margin_units: u32::try_from(margin_units).ok()?,
+    })
 }
 
 /// Covers every item; what cannot be curves becomes a distance field in `placed`.
@@ -63,7 +83,7 @@ pub(crate) fn cover(
     scales: &Scales,
     max_zoom: f32,
 ) -> Vec<Cover> {
-    let cutter = curve_lattice(placed, lattice, scales)
+    let cutter = curve_lattice(placed, lattice, scales, max_zoom)
         .map(|curve_lattice| Cutter::new(lattice, curve_lattice, max_zoom));
     let longer = drawing.canvas_size[0].max(drawing.canvas_size[1]);
     let cover_one = |(placed, item)| {

@@ -73,8 +73,8 @@ pub(crate) fn assemble(
         paint: paints.intern(config.stroke_color.unwrap_or([0.0, 0.0, 0.0, 1.0])),
     });
     let warnings = records::warnings(&mut drawing, &placed, &packing, &lists);
-    let curve_lattice =
-        curve_lattice(&placed, &lattice, &scales).filter(|_| !lists.curves.is_empty());
+    let curve_lattice = curve_lattice(&placed, &lattice, &scales, config.max_zoom)
+        .filter(|_| !lists.curves.is_empty());
     let meta = records::meta(&drawing, config, &lattice, curve_lattice, &scales, outline);
     let shapes = records::shape_records(&input, &lattice);
     let layers = layers.records(&lists);
