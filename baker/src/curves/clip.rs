@@ -127,7 +127,7 @@ fn cut_at_x(segment: &Segment, x: f64, first: Cut, last: Cut) -> Cut {
 }
 
 /// Where a monotone coordinate takes the value `v`, which lies between its ends.
-fn parameter(p0: f64, control: Option<f64>, p2: f64, v: f64) -> f64 {
+pub(super) fn parameter(p0: f64, control: Option<f64>, p2: f64, v: f64) -> f64 {
     let t = match control {
         None => (v - p0) / (p2 - p0),
         Some(p1) => {

@@ -2,7 +2,7 @@
 
 use kurbo::{BezPath, CubicBez, PathEl, Point, QuadBez};
 
-use super::CurveError;
+use super::{CurveError, clip::parameter};
 
 /// Largest coordinate in units. Cuts keep a precision far below a unit, and a canvas of 128 cells
 /// is 2^23 units wide.
@@ -10,6 +10,10 @@ const MAX_COORDINATE: f64 = (1_u64 << 40) as f64;
 /// Most quadratics that a monotone piece of a cubic becomes; one that would need more leaves its
 /// tolerance. An arc that spans a whole canvas at the largest zoom takes about 30.
 const MAX_PIECES: u32 = 1024;
+/// Share of a cubic's parameter that one quadratic may take whatever its error.
+const SHORTEST_STEP: f64 = 1.0 / 1024.0;
+/// What the next step may gain on the last.
+const STEP_GROWTH: f64 = 1.5;
 
 /// A line or quadratic, monotone in x and in y, from its upper to its lower end (equal heights:
 /// left to right). So two shapes that share an edge hold the same segment, whichever way round
@@ -181,17 +185,15 @@ impl Lowering {
 
     /// Both coordinates of `cubic` are monotone.
     fn monotone_cubic(&mut self, cubic: &CubicBez, forward: bool) {
-        let mut count = piece_count(cubic, self.tolerance);
-        while count < MAX_PIECES && !quads(cubic, count).all(|q| q.error <= self.tolerance) {
-            count += 1 + count / 4;
-        }
-        for piece in quads(cubic, count) {
-            self.push_along(
-                forward,
-                piece.quad.p0.round(),
-                piece.quad.p1,
-                piece.quad.p2.round(),
-            );
+        let mut from = 0.0;
+        let mut step = 1.0_f64;
+        for _ in 0..MAX_PIECES {
+            let (to, quad) = longest_quad(cubic, from, step, self.tolerance);
+            self.push_along(forward, quad.p0.round(), quad.p1, quad.p2.round());
+            if to >= 1.0 {
+                break;
+            }
+            (from, step) = (to, STEP_GROWTH * (to - from));
         }
     }
 
@@ -267,53 +269,72 @@ fn subcubic(cubic: &CubicBez, from: f64, to: f64) -> CubicBez {
     )
 }
 
-struct Piece {
-    quad: QuadBez,
-    /// Largest distance between equal parameters at the sampled ones.
-    error: f64,
-}
-
-/// `count` quadratics along a monotone `cubic`, each with the control point that keeps the middle,
-/// moved into the box of its ends so that it stays monotone.
-fn quads(cubic: &CubicBez, count: u32) -> impl Iterator<Item = Piece> {
-    let parameter = move |i: u32| f64::from(i) / f64::from(count);
-    (0..count).map(move |i| {
-        let part = subcubic(cubic, parameter(i), parameter(i + 1));
-        let [p0, p1, p2, p3] = [part.p0, part.p1, part.p2, part.p3].map(Point::to_vec2);
-        let control = (0.25 * (3.0 * (p1 + p2) - p0 - p3)).to_point();
-        let quad = QuadBez::new(part.p0, clamp_to_box(control, part.p0, part.p3), part.p3);
-        let gap = |t: f64| {
-            let on = |points: &[kurbo::Vec2; 4]| {
-                let s = 1.0 - t;
-                s * s * s * points[0]
-                    + 3.0 * s * s * t * points[1]
-                    + 3.0 * s * t * t * points[2]
-                    + t * t * t * points[3]
-            };
-            let c = quad.p1.to_vec2();
-            let raised = [p0, (p0 + 2.0 * c) / 3.0, (p3 + 2.0 * c) / 3.0, p3];
-            (on(&[p0, p1, p2, p3]) - on(&raised)).hypot()
+/// The quadratic that follows `cubic` from parameter `from` as far as `tolerance` lets it, at most
+/// about `step`, and where it ends.
+fn longest_quad(cubic: &CubicBez, from: f64, step: f64, tolerance: f64) -> (f64, QuadBez) {
+    let mut step = step.min(1.0);
+    loop {
+        let rest = 1.0 - from;
+        // A little more than the step is better than a crumb behind it.
+        let to = if 1.25 * step >= rest {
+            1.0
+        } else {
+            from + step
         };
-        let error = [0.2, 0.35, 0.5, 0.65, 0.8]
-            .into_iter()
-            .map(gap)
-            .fold(0.0, f64::max);
-        Piece { quad, error }
-    })
+        let part = subcubic(cubic, from, to);
+        let (quad, error) = best_quad(&part);
+        if error <= tolerance || to - from <= SHORTEST_STEP {
+            return (to, quad);
+        }
+        // The error falls with the fourth power of the step.
+        let shrink = 0.95 * (tolerance / error).sqrt().sqrt();
+        step = (to - from) * shrink.clamp(0.1, 0.75);
+    }
 }
 
-/// How many quadratics keep within `tolerance` if no control point has to move.
-fn piece_count(cubic: &CubicBez, tolerance: f64) -> u32 {
-    let third = cubic.p3.to_vec2() - 3.0 * cubic.p2.to_vec2() + 3.0 * cubic.p1.to_vec2()
-        - cubic.p0.to_vec2();
-    // The quadratic through the middle leaves the cubic by sqrt(3)/36 of its third difference,
-    // which shrinks with the cube of the step.
-    let count = (third.hypot() * (3.0_f64.sqrt() / 36.0) / tolerance).cbrt();
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped to the range of MAX_PIECES"
-    )]
-    let count = count.ceil().clamp(1.0, f64::from(MAX_PIECES)) as u32;
-    count
+/// A quadratic for a monotone cubic, with its error. The control point where the end tangents meet
+/// gives an error of fourth order and a smooth join; the one that keeps the middle is right where
+/// tangents fail, as at a point of inflection.
+fn best_quad(cubic: &CubicBez) -> (QuadBez, f64) {
+    let [p0, p1, p2, p3] = [cubic.p0, cubic.p1, cubic.p2, cubic.p3].map(Point::to_vec2);
+    let with = |control: Point| {
+        let control = clamp_to_box(control, cubic.p0, cubic.p3);
+        let quad = QuadBez::new(cubic.p0, control, cubic.p3);
+        (quad, quad_error(cubic, &quad))
+    };
+    let middle = with((0.25 * (3.0 * (p1 + p2) - p0 - p3)).to_point());
+    let (a, b) = (p1 - p0, p3 - p2);
+    let along = (p3 - p0).cross(b) / a.cross(b);
+    let meets = along.is_finite() && along > 0.0;
+    let tangent = meets.then(|| with((p0 + along * a).to_point()));
+    match tangent {
+        Some(tangent) if tangent.1 <= middle.1 => tangent,
+        _ => middle,
+    }
+}
+
+/// The largest distance, across their common chord, between two monotone curves with the same
+/// ends, at the sampled places; never less than their distance there.
+fn quad_error(cubic: &CubicBez, quad: &QuadBez) -> f64 {
+    let chord = cubic.p3 - cubic.p0;
+    let chord = chord / chord.hypot();
+    if !chord.is_finite() {
+        return 0.0;
+    }
+    let local = |p: Point| {
+        let v = p - cubic.p0;
+        (v.dot(chord), v.cross(chord))
+    };
+    let [_, c1, c2, c3] = [cubic.p0, cubic.p1, cubic.p2, cubic.p3].map(local);
+    let (control, end) = (local(quad.p1), c3.0);
+    let gap = |t: f64| {
+        let s = 1.0 - t;
+        let weights = [3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
+        let x = weights[0] * c1.0 + weights[1] * c2.0 + weights[2] * end;
+        let y = weights[0] * c1.1 + weights[1] * c2.1;
+        let u = parameter(0.0, Some(control.0), end, x);
+        (y - 2.0 * (1.0 - u) * u * control.1).abs()
+    };
+    let places = [0.1, 0.22, 0.36, 0.5, 0.64, 0.78, 0.9];
+    places.into_iter().map(gap).fold(0.0, f64::max)
 }
