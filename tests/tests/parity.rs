@@ -16,7 +16,7 @@ use vtex_tests::random::Random;
 
 /// Lookups of a random texture in each filter mode.
 const RANDOM_QUERIES: u32 = 100_000;
-/// Lookups of a baked drawing in point mode, and in each of the others.
+/// Lookups of a baked drawing, or of random curves, in point mode, and in each of the others.
 const BAKED_POINT_QUERIES: u32 = 1_000_000;
 const BAKED_OTHER_QUERIES: u32 = 200_000;
 
@@ -28,10 +28,11 @@ const DIFFERENT_SHARE: f64 = 1e-4;
 const FILTERED: f32 = 2.0 / 255.0;
 
 const LISTS: u32 = Features::LISTS;
+const CURVES: u32 = Features::LISTS | Features::CURVES;
 const COLOR: u32 = Features::LISTS | Features::MSDF;
 
 /// Feature sets that between them reach every module of the evaluator.
-const CASES: [(&str, u32); 10] = [
+const CASES: [(&str, u32); 14] = [
     ("solid", 0),
     ("full", LISTS | Features::TRANSLUCENT),
     ("opaque", COLOR),
@@ -43,6 +44,16 @@ const CASES: [(&str, u32); 10] = [
     (
         "translucent-outline",
         COLOR | Features::TRANSLUCENT | Features::OUTLINE,
+    ),
+    ("curves", CURVES),
+    (
+        "curves-outline",
+        CURVES | Features::OUTLINE | Features::TRANSLUCENT,
+    ),
+    ("curves-msdf", CURVES | Features::MSDF),
+    (
+        "curves-msdf-mask",
+        CURVES | Features::MSDF | Features::MASK | Features::OUTLINE,
     ),
     ("mips", COLOR | Features::MIPS),
     ("images", COLOR | Features::IMAGES | Features::TRANSLUCENT),
@@ -147,13 +158,19 @@ fn check_file(gpu: &Gpu, name: &str, file: &VtexFile, counts: [u32; 3], margin: 
 fn twin_and_gpu_agree() {
     let Some(gpu) = Gpu::open() else { return };
     for (index, (name, features)) in (0..).zip(CASES) {
+        let point = if features & Features::CURVES != 0 {
+            BAKED_POINT_QUERIES
+        } else {
+            RANDOM_QUERIES
+        };
         let file = random_texture(index, features);
         assert_eq!(
             spec_key(&file).features & features,
             features,
             "{name} has what it names"
         );
-        check_file(&gpu, name, &file, [RANDOM_QUERIES; 3], 1.5);
+        let counts = [point, RANDOM_QUERIES, RANDOM_QUERIES];
+        check_file(&gpu, name, &file, counts, 1.5);
     }
 }
 
