@@ -100,12 +100,26 @@ fn paper_mode_is_equation_1() {
 
 #[test]
 fn beyond_its_reach_a_record_knows_the_side() {
-    let far = polygon(&[[-0.2, 0.25], [-0.2, 0.75], [0.75, 0.75], [0.75, 0.25]]);
-    let file = file_of(&far, CurveHeader::default());
+    let wide = polygon(&[[0.0, 0.0], [0.0, 0.6], [0.6, 0.6], [0.6, 0.0]]);
+    let file = file_of(&wide, CurveHeader::default());
     let got = alpha(&file, FilterMode::Footprint, 100.0);
-    // Every edge is further than the margin from the first, and so it is from the second.
-    assert_eq!(got(0.3, 0.501), 1.0 - f32::from(u8::from(MARGIN > 0.25)));
-    assert_eq!(got(0.999_9, 0.99), 0.0);
+    for (u, v, distance) in [
+        (0.3, 0.3, 0.3),
+        (0.95, 0.5, -0.35),
+        (0.55, 0.3, 0.05),
+        (0.7, 0.3, -0.1),
+    ] {
+        let expected = if f32::abs(distance) > MARGIN {
+            f32::from(u8::from(distance > 0.0))
+        } else {
+            0.5 + distance / 100.0
+        };
+        assert!(
+            (got(u, v) - expected).abs() < 1e-5,
+            "{} at ({u}, {v})",
+            got(u, v)
+        );
+    }
 }
 
 /// A circle about (0.5, 0.5): eight quadratics, none of which turns back in x or y.
