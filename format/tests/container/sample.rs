@@ -135,7 +135,7 @@ fn record(step_count: u32, line_count: u32, quad_count: u32) -> Vec<u32> {
         quad_count,
         down_quad_count: 0,
         step_count,
-        even_odd: line_count % 2 == 0,
+        even_odd: line_count.is_multiple_of(2),
         base_winding: -1,
     };
     let mut words = header.encode().unwrap().to_vec();
