@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, Result};
 use vtex_baker::{BakeConfig, Resources, Stage};
+use vtex_format::VtexFile;
 
 use crate::clock::{Spread, Trial, interleave};
 use crate::raster::RASTER_SIZE;
@@ -58,17 +59,18 @@ fn row(path: &Path, resources: &Resources, rounds: usize) -> Result<Vec<Cell>> {
     let config = BakeConfig::default();
     let raster = raster_config(RASTER_SIZE);
     let mut runs: Vec<Run> = Vec::new();
-    let bake = |config: &BakeConfig| {
-        bake(&svg, config, resources).with_context(|| format!("cannot bake {name}"))
-    };
+    let fail = || format!("cannot bake {name}");
     let trials = vec![
         Trial::timed(1, || {
-            let run = bake(&config)?;
+            let (file, mut run) = bake(&svg, &config, resources).with_context(fail)?;
+            let start = Instant::now();
+            run.file_bytes = file.to_bytes().with_context(fail)?.len();
+            run.to_bytes = start.elapsed();
             let whole = run.whole();
             runs.push(run);
             Ok(whole)
         }),
-        Trial::timed(1, || Ok(bake(&raster)?.drawn())),
+        Trial::timed(1, || Ok(bake(&svg, &raster, resources).with_context(fail)?.1.drawn())),
     ];
     let timings = interleave(trials, rounds)?;
     // The first run was the warm-up.
@@ -96,6 +98,7 @@ fn row(path: &Path, resources: &Resources, rounds: usize) -> Result<Vec<Cell>> {
 }
 
 /// One bake.
+#[derive(Default)]
 struct Run {
     /// As [`STAGES`].
     stages: [Duration; STAGES.len()],
@@ -114,7 +117,7 @@ impl Run {
     }
 }
 
-fn bake(svg: &[u8], config: &BakeConfig, resources: &Resources) -> Result<Run> {
+fn bake(svg: &[u8], config: &BakeConfig, resources: &Resources) -> Result<(VtexFile, Run)> {
     let marks = Mutex::new(Vec::new());
     let observer = |stage: Stage| {
         if let Ok(mut marks) = marks.lock() {
@@ -123,8 +126,6 @@ fn bake(svg: &[u8], config: &BakeConfig, resources: &Resources) -> Result<Run> {
     };
     let file = vtex_baker::bake_observed(svg, config, resources, &observer)?;
     let baked = Instant::now();
-    let file_bytes = file.to_bytes()?.len();
-    let to_bytes = baked.elapsed();
     let marks = marks.into_inner().unwrap_or_default();
     let ends = marks.iter().skip(1).map(|(_, begin)| *begin).chain([baked]);
     let mut stages = [Duration::ZERO; STAGES.len()];
@@ -134,9 +135,9 @@ fn bake(svg: &[u8], config: &BakeConfig, resources: &Resources) -> Result<Run> {
             stages[index] += end - *begin;
         }
     }
-    Ok(Run {
+    let run = Run {
         stages,
-        to_bytes,
-        file_bytes,
-    })
+        ..Run::default()
+    };
+    Ok((file, run))
 }
