@@ -2,14 +2,18 @@
 
 use std::collections::BTreeSet;
 
-use kurbo::{Line, Rect};
+use kurbo::{BezPath, Line, Rect};
 
 use crate::{
-    geometry::{clip_line, line_box_distance},
+    geometry::{clip_line, flatten, floor_index, line_box_distance},
     grid::Lattice,
     msdf::{EDGE_ERROR_TEXELS, Edge, Rows, edges_of},
     placed::Placed,
 };
+
+/// How far flattening may move an outline when cells are listed, in steps. Below what
+/// [`EDGE_ERROR_TEXELS`] adds to the margin.
+const LISTING_TOLERANCE: f64 = 0.02;
 
 /// Distances in lattice steps at which an edge concerns a cell.
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +60,7 @@ pub(crate) fn classify(placed: &Placed, lattice: &Lattice, distances: Distances)
     let Some([columns, rows]) = lattice.cells_in(widened) else {
         return ShapeCells::default();
     };
-    bin_edges(&mut cells, lattice, distances);
+    bin_edges(&mut cells, &placed.outline, lattice, distances);
     let n = lattice.grid.texels_per_cell;
     cells.rows = Rows::new(&placed.region, rows[0] * n, (rows[1] + 1) * n);
     let mut listed = cells.listed.iter().copied().peekable();
@@ -77,56 +81,55 @@ pub(crate) fn classify(placed: &Placed, lattice: &Lattice, distances: Distances)
     cells
 }
 
-fn bin_edges(cells: &mut ShapeCells, lattice: &Lattice, distances: Distances) {
+/// Finds the cells near the outline, to the last sliver, and the cells near the edges that
+/// distances are measured to.
+fn bin_edges(cells: &mut ShapeCells, outline: &BezPath, lattice: &Lattice, distances: Distances) {
     let margin = distances.margin + EDGE_ERROR_TEXELS;
-    let reach = distances.reach.max(margin);
-    let window = lattice.canvas.inflate(
-        reach + 2.0 * lattice.cell_steps(),
-        reach + 2.0 * lattice.cell_steps(),
-    );
-    let mut near = BTreeSet::new();
     let mut listed = BTreeSet::new();
+    for contour in flatten(outline, LISTING_TOLERANCE) {
+        for ends in contour.windows(2) {
+            let line = Line::new(ends[0], ends[1]);
+            listed.extend(cells_near(line, lattice, margin));
+        }
+    }
+    let mut near = BTreeSet::new();
     for (index, edge) in (0_u32..).zip(&cells.edges) {
-        for line in edge.lines(f64::INFINITY) {
-            let Some(line) = clip_line(line, window) else {
-                continue;
-            };
-            for piece in split(line, lattice.cell_steps()) {
-                for (cell, distance) in cells_near(piece, lattice, reach) {
-                    near.insert((cell, index));
-                    if distance <= margin {
-                        listed.insert(cell);
-                    }
-                }
-            }
+        for line in edge.lines() {
+            let found = cells_near(line, lattice, distances.reach.max(margin));
+            near.extend(found.into_iter().map(|cell| (cell, index)));
         }
     }
     cells.near = near.into_iter().collect();
     cells.listed = listed.into_iter().collect();
 }
 
-/// Cells within `reach` of `line`, with their distance.
-fn cells_near(line: Line, lattice: &Lattice, reach: f64) -> Vec<(u32, f64)> {
-    let area = Rect::from_points(line.p0, line.p1).inflate(reach, reach);
-    let Some([columns, rows]) = lattice.cells_in(area) else {
-        return Vec::new();
-    };
+/// Cells within `reach` of `line`.
+fn cells_near(line: Line, lattice: &Lattice, reach: f64) -> Vec<u32> {
+    let beyond = reach + 2.0 * lattice.cell_steps();
     let mut near = Vec::new();
-    for row in rows[0]..=rows[1] {
-        for column in columns[0]..=columns[1] {
-            let distance = line_box_distance(line, lattice.cell_rect(column, row));
-            if distance <= reach {
-                near.push((row * lattice.grid.size_cells[0] + column, distance));
+    let Some(line) = clip_line(line, lattice.canvas.inflate(beyond, beyond)) else {
+        return near;
+    };
+    for piece in split(line, lattice.cell_steps()) {
+        let area = Rect::from_points(piece.p0, piece.p1).inflate(reach, reach);
+        let Some([columns, rows]) = lattice.cells_in(area) else {
+            continue;
+        };
+        for row in rows[0]..=rows[1] {
+            for column in columns[0]..=columns[1] {
+                if line_box_distance(piece, lattice.cell_rect(column, row)) <= reach {
+                    near.push(row * lattice.grid.size_cells[0] + column);
+                }
             }
         }
     }
     near
 }
 
-/// `line` in pieces no longer than `longest`.
-pub(crate) fn split(line: Line, longest: f64) -> impl Iterator<Item = Line> {
+/// `line` in pieces no longer than `longest`, so that the box around each is mostly line.
+fn split(line: Line, longest: f64) -> impl Iterator<Item = Line> {
     let pieces = ((line.p1 - line.p0).hypot() / longest).ceil().max(1.0);
     #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
     let at = move |k: usize| line.p0.lerp(line.p1, k as f64 / pieces);
-    (0..crate::geometry::floor_index(pieces)).map(move |k| Line::new(at(k), at(k + 1)))
+    (0..floor_index(pieces)).map(move |k| Line::new(at(k), at(k + 1)))
 }

@@ -31,7 +31,7 @@ pub(crate) struct Lattice {
 impl Lattice {
     /// Cells are square in user units, [`TEXELS_PER_CELL`] of `msdf_size` texels wide.
     pub(crate) fn new(canvas_size: [f64; 2], msdf_size: u32) -> Self {
-        let target = std::env::var("TPC").map_or(TEXELS_PER_CELL, |v| v.parse().unwrap());
+        let target = TEXELS_PER_CELL;
         let cells = msdf_size.div_ceil(target).clamp(MIN_CELLS, MAX_CELLS);
         let texels_per_cell = msdf_size.div_ceil(cells).clamp(1, 64);
         let longer = canvas_size[0].max(canvas_size[1]);

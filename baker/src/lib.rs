@@ -17,6 +17,8 @@
 //! and memory.
 
 mod cells;
+#[cfg(test)]
+mod cells_tests;
 mod classify;
 mod color;
 mod config;
@@ -51,6 +53,8 @@ use warning::Warnings;
 pub use config::{BakeConfig, Mode, Resources, Stage};
 pub use error::BakeError;
 
+#[cfg(test)]
+mod corpus_tests;
 #[cfg(test)]
 mod picture_tests;
 

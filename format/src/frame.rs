@@ -8,16 +8,26 @@ use zstd::zstd_safe;
 use crate::issue::{self, IssueKind};
 use crate::{Codec, SectionInfo};
 
-/// Speed 19 of 22: texels and cells are written once and read often. The higher levels want more
-/// memory for a per cent.
-const LEVEL: i32 = 19;
+/// Levels by raw length: small sections as tight as zstd packs without its costly last levels,
+/// large ones where the next level costs more time than it saves bytes. Measured on 3.9 MB of
+/// synthetic MSDF tiles, one core of a busy machine: level 19 gives 757 KB at 1.2 MB/s, 12 gives
+/// 843 KB at 17 MB/s, 9 gives 854 KB at 23 MB/s, 3 gives 1042 KB at 144 MB/s.
+const SMALL_LEVEL: i32 = 19;
+const LARGE_LEVEL: i32 = 12;
+/// Bytes from which a section is large: a fifth of a second at [`SMALL_LEVEL`].
+const LARGE_BYTES: usize = 256 << 10;
 
 /// Raw bytes as stored: a zstd frame, or themselves when that is no shorter.
 ///
 /// # Errors
 /// When zstd has no memory.
 pub(crate) fn compress(raw: &[u8]) -> std::io::Result<(Codec, Vec<u8>)> {
-    let frame = zstd::bulk::compress(raw, LEVEL)?;
+    let level = if raw.len() < LARGE_BYTES {
+        SMALL_LEVEL
+    } else {
+        LARGE_LEVEL
+    };
+    let frame = zstd::bulk::compress(raw, level)?;
     Ok(if frame.len() < raw.len() {
         (Codec::Zstd, frame)
     } else {

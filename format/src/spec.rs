@@ -80,38 +80,35 @@ impl SpecKey {
 
     /// The features that content and settings need.
     pub(crate) fn features_of(file: &VtexFile) -> u32 {
-        let SamplerSettings {
-            outline,
-            mask,
-            texture_matrix,
-            ..
-        } = file.meta.sampler;
-        let is_list = |&word| matches!(CellWord::decode(word), Some(CellWord::List { .. }));
+        let sampler = &file.meta.sampler;
         let mut features = 0;
         let mut need = |needed: bool, feature| features |= if needed { feature } else { 0 };
-        need(file.cells.iter().any(is_list), Features::LISTS);
-        need(mask, Features::MASK);
-        need(outline.is_some(), Features::OUTLINE);
+        need(sampler.mask, Features::MASK);
         let identity = SamplerSettings::default().texture_matrix;
-        need(texture_matrix != identity, Features::TEXTURE_MATRIX);
-
+        need(sampler.texture_matrix != identity, Features::TEXTURE_MATRIX);
+        let is_list = |&word| matches!(CellWord::decode(word), Some(CellWord::List { .. }));
+        if !file.cells.iter().any(is_list) {
+            return features;
+        }
+        need(true, Features::LISTS);
         let is_translucent = |index: u32| {
-            file.paints
-                .get(index as usize)
-                .is_some_and(|paint| !paint.is_opaque())
+            let paint = file.paints.get(index as usize);
+            paint.is_some_and(|paint| !paint.is_opaque())
         };
-        let translucent_outline = outline.is_some_and(|outline| is_translucent(outline.paint));
         let (pairs, _) = file.entries.as_chunks();
         for entry in pairs.iter().filter_map(|&words| Entry::decode(words)) {
             let is_image = entry.kind == EntryKind::Image;
-            let is_msdf = entry.kind == EntryKind::Msdf;
             need(is_image, Features::IMAGES | Features::TRANSLUCENT);
-            need(is_msdf, Features::MSDF);
-            need(is_msdf && translucent_outline, Features::TRANSLUCENT);
             need(
                 !is_image && is_translucent(entry.index),
                 Features::TRANSLUCENT,
             );
+            // Eq. 2 draws around MSDF shapes only.
+            let outline = sampler.outline.filter(|_| entry.kind == EntryKind::Msdf);
+            need(entry.kind == EntryKind::Msdf, Features::MSDF);
+            need(outline.is_some(), Features::OUTLINE);
+            let translucent = outline.is_some_and(|outline| is_translucent(outline.paint));
+            need(translucent, Features::TRANSLUCENT);
         }
         features
     }

@@ -7,7 +7,7 @@ use vtex_format::{SHADER_ABI, SpecKey, VtexFile};
 use vtex_shaders::{BatchQuery, BindingSlot, batch_dispatch};
 use wgpu::{Buffer, BufferUsages, ComputePipeline, Device, Queue, ShaderSource};
 
-use crate::gpu::{checked, empty_buffer, filled_buffer, read_buffer};
+use crate::gpu::{checked, compiled, empty_buffer, filled_buffer, read_buffer};
 use crate::{LoadOptions, RuntimeError};
 
 /// Whose shader is compiled. The key is the truth: text made from it is what a file means.
@@ -102,30 +102,31 @@ impl BatchSampler {
         let usage = storage | BufferUsages::COPY_SRC;
         let output = empty_buffer(device, "vtex colours", size, usage)?;
         let buffers = [&self.words, &input, &output];
-        let group = checked(device, "batch binding", || {
-            let entries: Vec<wgpu::BindGroupEntry<'_>> = (0..)
-                .zip(buffers)
-                .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                    binding,
-                    resource: buffer.as_entire_binding(),
-                })
-                .collect();
-            device.create_bind_group(&wgpu::BindGroupDescriptor {
+        let entries: Vec<wgpu::BindGroupEntry<'_>> = (0..)
+            .zip(buffers)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        checked(device, "batch", || {
+            let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("vtex batch"),
                 layout: &self.pipeline.get_bind_group_layout(0),
                 entries: &entries,
-            })
+            });
+            let mut encoder =
+                device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            {
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+                pass.set_pipeline(&self.pipeline);
+                pass.set_bind_group(0, &group, &[]);
+                let count = u32::try_from(queries.len()).unwrap_or(u32::MAX);
+                let [x, y, z] = batch_dispatch(count);
+                pass.dispatch_workgroups(x, y, z);
+            }
+            queue.submit([encoder.finish()]);
         })?;
-        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            let count = u32::try_from(queries.len()).unwrap_or(u32::MAX);
-            let [x, y, z] = batch_dispatch(count);
-            pass.dispatch_workgroups(x, y, z);
-        }
-        queue.submit([encoder.finish()]);
         let bytes = read_buffer(device, queue, &output, size)?;
         Ok(bytemuck::pod_collect_to_vec(&bytes))
     }
@@ -159,7 +160,9 @@ fn stored_kernel(
             Trust::Regenerate => "using our own",
             Trust::File => "using the file's, as asked",
         };
-        notices.push(format!("the file's shader is not what its key makes: {used}"));
+        notices.push(format!(
+            "the file's shader is not what its key makes: {used}"
+        ));
     }
     if trust == Trust::Regenerate {
         return None;
@@ -173,7 +176,9 @@ fn stored_kernel(
     match catch_unwind(AssertUnwindSafe(|| pipeline(device, spirv))) {
         Ok(Ok(pipeline)) => Some(pipeline),
         Ok(Err(error)) => {
-            notices.push(format!("the file's kernel was refused, using our own: {error}"));
+            notices.push(format!(
+                "the file's kernel was refused, using our own: {error}"
+            ));
             None
         }
         Err(_) => {
@@ -185,7 +190,7 @@ fn stored_kernel(
 
 /// Compiles a kernel of the batch interface: group 0 with words, queries, colours.
 fn pipeline(device: &Device, source: ShaderSource<'_>) -> Result<ComputePipeline, RuntimeError> {
-    checked(device, "batch kernel", || {
+    compiled(device, "batch kernel", || {
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("vtex batch"),
             source,

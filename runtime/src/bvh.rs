@@ -72,7 +72,8 @@ mod tests {
             triangles.extend(mesh.triangles.iter().map(|t| triangle(t.map(place))));
         }
         for light in &scene.lights {
-            let at = |u: f32, v: f32| Vec3A::from(light.corner + light.edge_u * u + light.edge_v * v);
+            let at =
+                |u: f32, v: f32| Vec3A::from(light.corner + light.edge_u * u + light.edge_v * v);
             triangles.push(triangle([at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0)]));
             triangles.push(triangle([at(0.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)]));
         }
@@ -129,7 +130,14 @@ mod tests {
         }
         assert!(hits > rays.len() / 2, "only {hits} rays hit");
         // Graphics cards may fuse multiply and add; software drivers compute as written.
-        let allowed = if gpu.is_software() { 0 } else { rays.len() / 100 };
-        assert!(differences <= allowed, "{differences} of {hits} hits differ");
+        let allowed = if gpu.is_software() {
+            0
+        } else {
+            rays.len() / 100
+        };
+        assert!(
+            differences <= allowed,
+            "{differences} of {hits} hits differ"
+        );
     }
 }

@@ -23,8 +23,8 @@ impl Camera {
     pub fn facing_rect(center: [f32; 2], size: [f32; 2], film_aspect: f32) -> Self {
         let height = size[1].max(size[0] / film_aspect);
         // A narrow angle keeps rays nearly parallel, so that footprints are even over the plane.
-        let fov_y_rad = 0.2;
-        let distance = 0.5 * height / (0.5 * fov_y_rad as f64).tan() as f32;
+        let fov_y_rad: f32 = 0.2;
+        let distance = 0.5 * height / (0.5 * fov_y_rad).tan();
         let target = Vec3::new(center[0], center[1], 0.0);
         Self {
             position: target + Vec3::Z * distance,

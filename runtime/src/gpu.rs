@@ -26,9 +26,9 @@ impl Gpu {
     /// the adapter has them. Hardware is preferred; a software driver serves when it is all there
     /// is. [`ADAPTER_VARIABLE`] overrides the choice.
     ///
-    /// Validation errors of later calls do not panic: those this crate expects become
-    /// [`RuntimeError`]s, any other is dropped, so a caller that wants to see them sets
-    /// [`wgpu::Device::on_uncaptured_error`].
+    /// Errors of this crate's own calls come back as [`RuntimeError`]. wgpu panics on any other
+    /// unless told not to; this device is told to drop them, so a program that makes calls of its
+    /// own sets [`wgpu::Device::on_uncaptured_error`] to hear of its mistakes.
     ///
     /// # Errors
     /// [`RuntimeError::NoAdapter`] when there is none or none matches,
@@ -127,9 +127,21 @@ pub(crate) fn checked<T>(
     let memory = pollster::block_on(memory.pop());
     match (validation, memory) {
         (_, Some(error)) => Err(RuntimeError::Limit(format!("{what}: {error}"))),
-        (Some(error), None) => Err(RuntimeError::Shader(format!("{what}: {error}"))),
+        (Some(error), None) => Err(RuntimeError::Device(format!("{what}: {error}"))),
         (None, None) => Ok(made),
     }
+}
+
+/// As [`checked`] for shaders and pipelines.
+pub(crate) fn compiled<T>(
+    device: &wgpu::Device,
+    what: &str,
+    make: impl FnOnce() -> T,
+) -> Result<T, RuntimeError> {
+    checked(device, what, make).map_err(|error| match error {
+        RuntimeError::Device(message) => RuntimeError::Shader(message),
+        other => other,
+    })
 }
 
 /// Makes a buffer that holds `bytes`; an empty slice becomes one zero word, since bindings may
@@ -198,17 +210,20 @@ pub(crate) fn read_buffer(
 ) -> Result<Vec<u8>, RuntimeError> {
     let usage = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
     let staging = empty_buffer(device, "vtex readback", size, usage)?;
-    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    encoder.copy_buffer_to_buffer(source, 0, &staging, 0, size);
-    queue.submit([encoder.finish()]);
+    checked(device, "read-back", || {
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_buffer_to_buffer(source, 0, &staging, 0, size);
+        queue.submit([encoder.finish()]);
+    })?;
     let (sender, receiver) = std::sync::mpsc::channel();
     staging.map_async(wgpu::MapMode::Read, .., move |result| {
         // The receiver lives until `recv` below returns; were it gone, nobody would want this.
         let _ = sender.send(result);
     });
     wait(device)?;
+    // Another thread that polls the same device may run the callback after this one's wait ends.
     let mapped = receiver
-        .try_recv()
+        .recv()
         .map_err(|_| RuntimeError::Device("read-back never finished".to_owned()))?;
     mapped.map_err(|error| RuntimeError::Device(error.to_string()))?;
     let view = staging

@@ -52,12 +52,12 @@ fn aspect(file: &VtexFile) -> f32 {
     }
 }
 
-/// A sign board, a glazed ball, a mug, and floor and wall panels, lit by a panel overhead and a
-/// pale sky, for a 3:2 film. Each object takes the next of `files` and starts over when they run
+/// A sign board, a glazed ball, a mug and a panel on the floor before a wall, lit by a panel
+/// overhead and a pale sky, for a 3:2 film. Each object takes the next of `files` and starts over when they run
 /// out; without any, all are plain. The floor panel shows its texture at grazing angles.
 pub fn showroom(files: Vec<VtexFile>) -> Scene {
     let mut room = Room::new(files);
-    room.ground();
+    room.walls();
     room.sign();
     room.ball();
     room.mug();
@@ -83,19 +83,19 @@ impl Room {
                 materials: Vec::new(),
                 textures: Vec::new(),
                 sky: Sky {
-                    zenith: [0.35, 0.45, 0.60],
-                    horizon: [0.75, 0.78, 0.80],
-                    ground: [0.25, 0.24, 0.22],
+                    zenith: [0.16, 0.20, 0.26],
+                    horizon: [0.34, 0.35, 0.36],
+                    ground: [0.12, 0.12, 0.11],
                 },
                 lights: vec![RectLight {
                     corner: Vec3::new(-2.2, 4.0, -0.2),
                     edge_u: Vec3::new(2.4, 0.0, 0.0),
                     edge_v: Vec3::new(0.0, -0.8, 1.6),
-                    radiance: [9.0, 8.6, 8.0],
+                    radiance: [7.0, 6.7, 6.2],
                 }],
                 camera: Camera {
-                    position: Vec3::new(0.3, 1.55, 4.6),
-                    target: Vec3::new(0.0, 0.62, 0.0),
+                    position: Vec3::new(0.25, 1.45, 4.9),
+                    target: Vec3::new(0.0, 0.42, 0.0),
                     up: Vec3::Y,
                     fov_y_rad: 0.55,
                 },
@@ -105,17 +105,35 @@ impl Room {
         }
     }
 
-    fn ground(&mut self) {
-        let material = Material {
-            base_color: [0.46, 0.45, 0.44],
+    /// The floor, and a wall far enough back to leave the objects alone.
+    fn walls(&mut self) {
+        let floor = Material {
+            base_color: [0.32, 0.31, 0.30],
             surface: Surface::Glossy {
                 metallic: 0.0,
                 roughness: 0.35,
             },
             ..Material::default()
         };
+        let wall = Material {
+            base_color: [0.30, 0.36, 0.42],
+            ..Material::default()
+        };
         let lying = Affine3A::from_rotation_x(-std::f32::consts::FRAC_PI_2);
-        self.add(Mesh::plane(40.0, 40.0), material, lying);
+        self.add(Mesh::plane(40.0, 40.0), floor, lying);
+        let back = Affine3A::from_translation(Vec3::new(0.0, 3.0, -3.0));
+        self.add(Mesh::plane(40.0, 6.0), wall, back);
+    }
+
+    /// A surface that shows `texture` over paper, or paper alone.
+    fn printed(texture: Option<usize>, surface: Surface) -> Material {
+        Material {
+            base_color: if texture.is_some() { [1.0; 3] } else { PAPER },
+            texture,
+            backing: Some(PAPER),
+            surface,
+            ..Material::default()
+        }
     }
 
     /// A board on the left whose front shows the whole drawing.
@@ -136,11 +154,7 @@ impl Room {
         };
         let size = Vec3::new(width + 0.06, height + 0.06, 0.05);
         self.add(Mesh::cuboid(size), frame, place(Vec3::ZERO));
-        let face = Material {
-            texture,
-            backing: Some(PAPER),
-            ..Material::default()
-        };
+        let face = Self::printed(texture, Surface::Diffuse);
         self.add(Mesh::plane(width, height), face, place(Vec3::Z * 0.026));
     }
 
@@ -148,15 +162,13 @@ impl Room {
     fn ball(&mut self) {
         let around = [AddressMode::Repeat, AddressMode::Clamp];
         let (texture, _) = self.take(Some(around));
-        let glazed = Material {
+        let glazed = Self::printed(
             texture,
-            backing: Some(PAPER),
-            surface: Surface::Glossy {
+            Surface::Glossy {
                 metallic: 0.0,
                 roughness: 0.12,
             },
-            ..Material::default()
-        };
+        );
         let place = Affine3A::from_rotation_translation(
             Quat::from_rotation_y(std::f32::consts::FRAC_PI_2),
             Vec3::new(0.12, 0.52, -0.35),
@@ -176,20 +188,21 @@ impl Room {
             metallic: 0.0,
             roughness: 0.25,
         };
-        let printed = Material {
-            texture,
-            backing: Some(PAPER),
-            surface,
-            ..Material::default()
-        };
+        let printed = Self::printed(texture, surface);
         let plain = Material {
             base_color: PAPER,
             surface,
             ..Material::default()
         };
         let center = Vec3::new(1.15, 0.5 * height, 0.1);
-        // A copy's middle faces the camera.
-        let turn = std::f32::consts::PI / copies;
+        // u = 0.5 faces the camera; of an even number of copies that is a seam, so half a copy more.
+        let to_camera = self.scene.camera.position - center;
+        let half_copy = if copies % 2.0 == 0.0 {
+            std::f32::consts::PI / copies
+        } else {
+            0.0
+        };
+        let turn = to_camera.x.atan2(to_camera.z) + half_copy;
         let upright = Affine3A::from_rotation_translation(Quat::from_rotation_y(turn), center);
         self.add(Mesh::cylinder(radius, height, 96, copies), printed, upright);
         let inside = Affine3A::from_translation(center);
@@ -205,15 +218,11 @@ impl Room {
     /// A panel lying in the foreground, seen at a grazing angle.
     fn floor_panel(&mut self) {
         let (texture, aspect) = self.take(None);
-        let [width, depth] = fitted(aspect, [1.5, 1.3]);
-        let panel = Material {
-            texture,
-            backing: Some(PAPER),
-            ..Material::default()
-        };
+        let [width, depth] = fitted(aspect, [1.8, 1.2]);
+        let panel = Self::printed(texture, Surface::Diffuse);
         let place = Affine3A::from_rotation_translation(
             Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2),
-            Vec3::new(0.0, 0.004, 1.35),
+            Vec3::new(0.0, 0.004, 1.3),
         );
         self.add(Mesh::plane(width, depth), panel, place);
     }

@@ -12,9 +12,9 @@ use wgpu::{Buffer, Device, Queue};
 pub use film::{Film, ToneMap};
 pub use options::{Background, LightSampling, TraceOptions};
 
-use crate::gpu::{empty_buffer, read_buffer};
+use crate::gpu::{checked, empty_buffer, read_buffer, wait};
 use crate::{RuntimeError, Scene};
-use passes::{Passes, Timer};
+use passes::{MAX_IN_FLIGHT, Passes, Timer};
 use pipeline::{Bindings, Pipelines};
 use records::{HitRecord, NONE, PassRecord, RayRecord};
 use upload::SceneBuffers;
@@ -129,42 +129,48 @@ impl Tracer {
     /// [`RuntimeError::Device`] when the device is lost.
     pub fn accumulate(&mut self, samples: u32) -> Result<(), RuntimeError> {
         let passes = Passes::new(self.size, self.samples, samples);
-        for record in passes {
+        for (count, record) in (1..).zip(passes) {
             self.dispatch(record)?;
+            if count % MAX_IN_FLIGHT == 0 {
+                self.settle()?;
+            }
         }
         self.samples = self.samples.saturating_add(samples);
-        crate::gpu::wait(&self.device)?;
-        if let Some(timer) = &mut self.timer {
-            timer.finish(&self.device, &self.queue)?;
+        self.settle()
+    }
+
+    /// Waits for what was submitted and adds up its times.
+    fn settle(&mut self) -> Result<(), RuntimeError> {
+        wait(&self.device)?;
+        match &mut self.timer {
+            Some(timer) => timer.finish(&self.device, &self.queue),
+            None => Ok(()),
         }
-        Ok(())
     }
 
     fn dispatch(&mut self, record: PassRecord) -> Result<(), RuntimeError> {
         self.queue
             .write_buffer(&self.pass, 0, bytemuck::bytes_of(&record));
-        let mut encoder = self
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                label: Some("vtex render"),
-                timestamp_writes: self.timer.as_ref().map(Timer::writes),
-            });
-            pass.set_pipeline(&self.pipelines.render);
-            pass.set_bind_group(0, &self.bindings.scene, &[]);
-            pass.set_bind_group(1, &self.bindings.film, &[]);
-            pass.set_bind_group(2, &self.bindings.textures, &[]);
-            pass.dispatch_workgroups(self.size[0].div_ceil(8), record.row_count.div_ceil(8), 1);
-        }
-        if let Some(timer) = &mut self.timer {
-            timer.resolve(&mut encoder);
-        }
-        self.queue.submit([encoder.finish()]);
-        if let Some(timer) = &mut self.timer {
-            timer.submitted(&self.device, &self.queue)?;
-        }
-        Ok(())
+        checked(&self.device, "render", || {
+            let mut encoder = self
+                .device
+                .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            {
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                    label: Some("vtex render"),
+                    timestamp_writes: self.timer.as_ref().map(Timer::writes),
+                });
+                pass.set_pipeline(&self.pipelines.render);
+                pass.set_bind_group(0, &self.bindings.scene, &[]);
+                pass.set_bind_group(1, &self.bindings.film, &[]);
+                pass.set_bind_group(2, &self.bindings.textures, &[]);
+                pass.dispatch_workgroups(self.size[0].div_ceil(8), record.row_count.div_ceil(8), 1);
+            }
+            if let Some(timer) = &mut self.timer {
+                timer.resolve(&mut encoder);
+            }
+            self.queue.submit([encoder.finish()]);
+        })
     }
 
     /// Samples a pixel so far.
@@ -247,11 +253,13 @@ impl Tracer {
         }
         let records: Vec<RayRecord> = rays
             .iter()
-            .map(|ray| RayRecord {
-                origin: ray.origin,
-                t_max: ray.t_max,
-                direction: ray.direction,
-                reserved: 0,
+            .map(|ray| {
+                let [x, y, z] = ray.origin;
+                let [dx, dy, dz] = ray.direction;
+                RayRecord {
+                    origin_t_max: [x, y, z, ray.t_max],
+                    direction: [dx, dy, dz, 0.0],
+                }
             })
             .collect();
         let hits = passes::intersect(self, &records)?;

@@ -165,6 +165,50 @@ fn a_stored_shader_that_is_not_the_keys_is_told_and_not_used() {
 }
 
 #[test]
+fn a_trusted_file_runs_its_own_kernel() {
+    let Some(gpu) = gpu() else { return };
+    let svg = br##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 20">
+        <circle cx="10" cy="10" r="8" fill="#f00"/><path d="M20 0h20v20z" fill="#00f"/></svg>"##;
+    let file = vtex_baker::bake(svg, &Default::default(), &Default::default()).unwrap();
+    let queries: Vec<BatchQuery> = (0..2000)
+        .map(|i| {
+            query(
+                (i % 50) as f32 / 50.0 + 0.003,
+                (i / 50) as f32 / 40.0 + 0.007,
+            )
+        })
+        .collect();
+    let sample = |file: &VtexFile, trust| {
+        let options = LoadOptions::default();
+        let sampler = BatchSampler::new(&gpu.device, &gpu.queue, file, &options, trust).unwrap();
+        (sampler.sample(&queries).unwrap(), sampler.notices().len())
+    };
+    let (ours, notices) = sample(&file, Trust::Regenerate);
+    assert_eq!(notices, 0, "a fresh bake stores what its key makes");
+    assert!(ours.contains(&RED) && ours.contains(&BLUE) && ours.contains(&CLEAR));
+    let (theirs, notices) = sample(&file, Trust::File);
+    assert_eq!(notices, 0, "its kernel is accepted");
+    assert!(ours == theirs, "both kernels give the same colours");
+
+    // A kernel that answers something else shows that it is the file's which runs.
+    let mut foreign = file.clone();
+    foreign.shader = vtex_baker::bake(
+        svg,
+        &vtex_baker::BakeConfig {
+            mask: true,
+            ..Default::default()
+        },
+        &Default::default(),
+    )
+    .unwrap()
+    .shader;
+    assert!(sample(&foreign, Trust::Regenerate) == (ours.clone(), 1));
+    let (masked, notices) = sample(&foreign, Trust::File);
+    assert_eq!(notices, 1, "a text that is not the key's is told");
+    assert!(masked.contains(&[1.0; 4]), "the file's kernel runs");
+}
+
+#[test]
 fn a_texture_past_the_binding_limit_is_refused() {
     let Some(gpu) = gpu() else { return };
     let mut file = quarters();
@@ -455,8 +499,14 @@ fn all_meshes_show_the_texture_upright_from_outside() {
         let at = |x: usize, y: usize| film.pixels[y * 64 + x];
         let (red, green, blue) = (at(24, 24), at(40, 24), at(24, 40));
         assert!(red[0] > 0.9 && red[1] < 0.1, "{name} top left: {red:?}");
-        assert!(green[1] > 0.9 && green[0] < 0.1, "{name} top right: {green:?}");
-        assert!(blue[2] > 0.9 && blue[0] < 0.1, "{name} bottom left: {blue:?}");
+        assert!(
+            green[1] > 0.9 && green[0] < 0.1,
+            "{name} top right: {green:?}"
+        );
+        assert!(
+            blue[2] > 0.9 && blue[0] < 0.1,
+            "{name} bottom left: {blue:?}"
+        );
     }
 }
 

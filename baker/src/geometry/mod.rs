@@ -2,6 +2,8 @@
 
 mod flatten;
 mod overlap;
+#[cfg(test)]
+mod tests;
 mod winding;
 
 pub(crate) use flatten::{clip_line, flatten, flatten_segment};

@@ -21,7 +21,7 @@ struct Monotone {
     x_min: f64,
     x_max: f64,
     /// +1 where the outline runs towards growing y, -1 where it runs back.
-    delta: i32,
+    direction: i32,
 }
 
 impl Monotone {
@@ -47,10 +47,10 @@ impl Monotone {
 
     /// Newton's method kept inside a shrinking bracket.
     fn parameter_at(&self, c: [f64; 4], y: f64) -> f64 {
-        let sign = f64::from(self.delta);
+        let sign = f64::from(self.direction);
         let (mut low, mut high) = (0.0_f64, 1.0_f64);
         let mut t = (y - self.y_min) / (self.y_max - self.y_min);
-        if self.delta < 0 {
+        if self.direction < 0 {
             t = 1.0 - t;
         }
         for _ in 0..64 {
@@ -183,11 +183,12 @@ impl Region {
         self.bounds
     }
 
-    /// Sum of the directions of the pieces to the left of `p`.
+    /// How often the outline turns around `p`; a contour of positive area turns once, positively.
     pub(crate) fn winding(&self, p: Point) -> i32 {
         self.pieces_at(p.y)
             .filter(|piece| p.x >= piece.x_max || (p.x >= piece.x_min && p.x >= piece.x_at(p.y)))
-            .map(|piece| piece.delta)
+            // Left of the inside of a positive contour the outline runs towards smaller y.
+            .map(|piece| -piece.direction)
             .sum()
     }
 
@@ -200,7 +201,7 @@ impl Region {
     pub(crate) fn crossings(&self, y: f64) -> Vec<(f64, i32)> {
         let mut row: Vec<(f64, i32)> = self
             .pieces_at(y)
-            .map(|piece| (piece.x_at(y), piece.delta))
+            .map(|piece| (piece.x_at(y), -piece.direction))
             .collect();
         row.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         let mut winding = 0;
@@ -284,7 +285,7 @@ fn monotone(curve: PathSeg) -> Option<Monotone> {
         y_max: y0.max(y1),
         x_min: control.x0,
         x_max: control.x1,
-        delta: if y1 > y0 { 1 } else { -1 },
+        direction: if y1 > y0 { 1 } else { -1 },
     })
 }
 

@@ -11,6 +11,8 @@ use kurbo::{
 };
 use nalgebra::Point2;
 
+use crate::geometry::flatten_segment;
+
 /// Segments and handles shorter than this many texels are noise to a distance field: their
 /// direction decides a sign far beyond their size. They are collapsed.
 const COLLAPSE_TEXELS: f64 = 0.05;
@@ -41,23 +43,12 @@ impl Edge {
         }
     }
 
-    /// Straight lines along the edge, none longer than `longest`.
-    pub(crate) fn lines(&self, longest: f64) -> Vec<Line> {
-        let mut lines = Vec::new();
-        let mut points = Vec::new();
-        let mut from = to_kurbo(self.segment.segment.start());
-        crate::geometry::flatten_segment(self.curve(), LINE_TOLERANCE_TEXELS, &mut points);
-        for to in points {
-            let pieces = ((to - from).hypot() / longest).ceil().max(1.0);
-            let start = from;
-            for k in 1..=crate::geometry::floor_index(pieces) {
-                #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
-                let next = start.lerp(to, k as f64 / pieces);
-                lines.push(Line::new(from, next));
-                from = next;
-            }
-        }
-        lines
+    /// Straight lines along the edge.
+    pub(crate) fn lines(&self) -> Vec<Line> {
+        let mut points = vec![to_kurbo(self.segment.segment.start())];
+        flatten_segment(self.curve(), LINE_TOLERANCE_TEXELS, &mut points);
+        let ends = points.windows(2);
+        ends.map(|ends| Line::new(ends[0], ends[1])).collect()
     }
 }
 

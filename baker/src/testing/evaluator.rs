@@ -76,7 +76,7 @@ impl Evaluator<'_> {
 }
 
 /// Puts a straight-alpha colour behind a premultiplied one.
-fn under(out: &mut [f64; 4], color: [f32; 4]) {
+pub(crate) fn under(out: &mut [f64; 4], color: [f32; 4]) {
     let shown = (1.0 - out[3]) * f64::from(color[3]);
     for i in 0..3 {
         out[i] += shown * f64::from(color[i]);

@@ -5,5 +5,5 @@ mod evaluator;
 mod random;
 
 pub(crate) use drawings::{corpus_file, drawing_of, shape};
-pub(crate) use evaluator::{Evaluator, paint_exactly, psnr, render, write_png};
-pub(crate) use random::Random;
+pub(crate) use evaluator::{Evaluator, paint_exactly, psnr, render, under, write_png};
+pub(crate) use random::{Random, random_outline};

@@ -1,5 +1,9 @@
 //! Random numbers that are the same every time.
 
+use std::f64::consts::TAU;
+
+use kurbo::{BezPath, Circle, Point, Shape as _, Vec2};
+
 /// `SplitMix64` (Steele, Lea and Flood 2014).
 #[derive(Clone, Debug)]
 pub(crate) struct Random(pub(crate) u64);
@@ -22,4 +26,67 @@ impl Random {
     pub(crate) fn below(&mut self, count: u64) -> u64 {
         self.next_u64() % count
     }
+}
+
+/// A circle, star, ring, blob with crossings or polygon inside \[0, `size`\]^2 or a little outside.
+pub(crate) fn random_outline(random: &mut Random, size: f64) -> BezPath {
+    let center = Point::new(random.within(0.0, size), random.within(0.0, size));
+    let radius = random.within(0.01, 0.2) * size;
+    match random.below(5) {
+        0 => Circle::new(center, radius).to_path(1e-4),
+        1 => polygon(5, |k| {
+            let angle = 2.0 * f64::from(k) * TAU / 5.0;
+            center + radius * Vec2::from_angle(angle)
+        }),
+        2 => {
+            let mut ring = Circle::new(center, radius).to_path(1e-4);
+            ring.extend(
+                Circle::new(center, 0.9 * radius)
+                    .to_path(1e-4)
+                    .reverse_subpaths(),
+            );
+            ring
+        }
+        3 => {
+            let mut near = || {
+                center
+                    + Vec2::new(
+                        random.within(-radius, radius),
+                        random.within(-radius, radius),
+                    )
+            };
+            let mut blob = BezPath::new();
+            blob.move_to(near());
+            for _ in 0..4 {
+                blob.curve_to(near(), near(), near());
+            }
+            let start = blob.elements()[0].end_point().unwrap();
+            blob.quad_to(near(), start);
+            blob.close_path();
+            blob
+        }
+        _ => {
+            let corners = 3 + u32::try_from(random.below(6)).unwrap();
+            let mut near = || {
+                center
+                    + Vec2::new(
+                        random.within(-radius, radius),
+                        random.within(-radius, radius),
+                    )
+            };
+            polygon(corners, |_| near())
+        }
+    }
+}
+
+fn polygon(corners: u32, mut corner: impl FnMut(u32) -> Point) -> BezPath {
+    let mut path = BezPath::new();
+    let start = corner(0);
+    path.move_to(start);
+    for k in 1..corners {
+        path.line_to(corner(k));
+    }
+    path.line_to(start);
+    path.close_path();
+    path
 }

@@ -42,14 +42,21 @@ pub(super) fn spec(file: &VtexFile, longest_list: u32, issues: &mut Issues) {
         format_args!("bits {missing:#x}"),
     );
     // These two change what a lookup returns, the others only what it costs.
-    let stray = features & !needed & (Features::MASK | Features::OUTLINE);
+    let sampler = &file.meta.sampler;
+    let mask = if sampler.mask { 0 } else { Features::MASK };
+    let outline = if sampler.outline.is_some() {
+        0
+    } else {
+        Features::OUTLINE
+    };
+    let stray = features & (mask | outline);
     require(
         stray == 0,
         issue::SPEC_FEATURE_STRAY,
         4,
         format_args!("bits {stray:#x}"),
     );
-    let address = file.meta.sampler.address.map(|mode| mode as u32);
+    let address = sampler.address.map(|mode| mode as u32);
     let same = address == [address_u, address_v];
     require(
         same,

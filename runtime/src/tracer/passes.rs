@@ -18,7 +18,10 @@ const PATHS_PER_PASS: u32 = 1 << 16;
 /// Samples one invocation may add in one pass, so that small films need fewer submissions.
 const MAX_SAMPLES_PER_PASS: u32 = 16;
 /// Submissions that may be under way before the host waits, which bounds queued memory.
-const MAX_IN_FLIGHT: u32 = 8;
+pub(super) const MAX_IN_FLIGHT: u32 = 8;
+/// Where a submission's two timestamps lie, in words: resolve offsets are multiples of 256 bytes.
+const STAMP_STRIDE: usize = 32;
+const STAMP_STRIDE_BYTES: u64 = 8 * STAMP_STRIDE as u64;
 
 /// Rows and samples of each submission: all rows of some samples, then the next samples.
 #[derive(Clone, Copy, Debug)]
@@ -91,8 +94,7 @@ impl Timer {
             count: 2,
         });
         let usage = wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC;
-        // Resolve offsets must be multiples of 256.
-        let size = u64::from(MAX_IN_FLIGHT) * wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT;
+        let size = u64::from(MAX_IN_FLIGHT) * STAMP_STRIDE_BYTES;
         Ok(Some(Self {
             queries,
             resolved: empty_buffer(device, "vtex timer", size, usage)?,
@@ -111,28 +113,20 @@ impl Timer {
     }
 
     pub(super) fn resolve(&mut self, encoder: &mut CommandEncoder) {
-        let offset = u64::from(self.pending) * wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT;
+        let offset = u64::from(self.pending) * STAMP_STRIDE_BYTES;
         encoder.resolve_query_set(&self.queries, 0..2, &self.resolved, offset);
         self.pending += 1;
     }
 
-    /// Reads the times once the buffer is full.
-    pub(super) fn submitted(&mut self, device: &Device, queue: &Queue) -> Result<(), RuntimeError> {
-        if self.pending == MAX_IN_FLIGHT {
-            self.finish(device, queue)?;
-        }
-        Ok(())
-    }
-
+    /// Adds up the times of what was resolved since; at most [`MAX_IN_FLIGHT`] passes.
     pub(super) fn finish(&mut self, device: &Device, queue: &Queue) -> Result<(), RuntimeError> {
         if self.pending == 0 {
             return Ok(());
         }
         let bytes = read_buffer(device, queue, &self.resolved, self.resolved.size())?;
         let stamps: Vec<u64> = bytemuck::pod_collect_to_vec(&bytes);
-        let stride = wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT as usize / size_of::<u64>();
         let spent = stamps
-            .chunks(stride)
+            .chunks(STAMP_STRIDE)
             .take(self.pending as usize)
             .map(|pair| pair[1].saturating_sub(pair[0]));
         self.ticks += spent.sum::<u64>();
@@ -171,18 +165,18 @@ pub(super) fn intersect(
     let size = u64::from(count.max(4)) * size_of::<HitRecord>() as u64;
     let usage = storage | wgpu::BufferUsages::COPY_SRC;
     let output = empty_buffer(device, "vtex hits", size, usage)?;
-    let queries = checked(device, "vtex queries", || {
-        group(device, &tracer.pipelines.query_layout, &[&input, &output])
+    checked(device, "intersect", || {
+        let queries = group(device, &tracer.pipelines.query_layout, &[&input, &output]);
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(&tracer.pipelines.intersect);
+            pass.set_bind_group(0, &tracer.bindings.scene, &[]);
+            pass.set_bind_group(1, &queries, &[]);
+            pass.dispatch_workgroups(count.div_ceil(64), 1, 1);
+        }
+        queue.submit([encoder.finish()]);
     })?;
-    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    {
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        pass.set_pipeline(&tracer.pipelines.intersect);
-        pass.set_bind_group(0, &tracer.bindings.scene, &[]);
-        pass.set_bind_group(1, &queries, &[]);
-        pass.dispatch_workgroups(count.div_ceil(64), 1, 1);
-    }
-    queue.submit([encoder.finish()]);
     let bytes = read_buffer(device, queue, &output, size)?;
     let mut hits: Vec<HitRecord> = bytemuck::pod_collect_to_vec(&bytes);
     hits.truncate(rays.len());

@@ -4,7 +4,7 @@ use vtex_shaders::{BindingSlot, LinkContext};
 use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferBindingType, ComputePipeline, Device};
 
 use crate::RuntimeError;
-use crate::gpu::checked;
+use crate::gpu::{checked, compiled};
 
 use super::upload::SceneBuffers;
 
@@ -47,7 +47,7 @@ impl Pipelines {
         let context = vtex_shaders::scene_context(texture_features, TEXTURE_SLOT);
         let render_wgsl = linked("root/render", &context)?;
         let intersect_wgsl = linked("root/intersect", &context)?;
-        checked(device, "path tracer", || {
+        compiled(device, "path tracer", || {
             let scene_layout = layout(device, "vtex scene", SCENE_GROUP);
             let film_layout = layout(device, "vtex film", FILM_GROUP);
             let query_layout = layout(device, "vtex queries", QUERY_GROUP);

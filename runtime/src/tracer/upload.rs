@@ -1,6 +1,6 @@
 //! A scene as buffers on the device.
 
-use glam::{Vec3, Vec3A};
+use glam::{Vec3, Vec3A, Vec4};
 use obvhs::triangle::Triangle;
 use wgpu::{Buffer, BufferUsages, Device, Queue};
 
@@ -171,11 +171,11 @@ impl World {
             });
             let uvs = corners.map(|i| mesh.uvs[i]);
             self.triangles.push(triangle);
-            self.attributes.push(AttributeRecord {
-                normal_u: [0, 1, 2].map(|k| normals[k].extend(uvs[k].x).to_array()),
-                v: uvs.map(|uv| uv.y),
-                material: index_u32(instance.material),
-            });
+            self.attributes.push(attribute_record(
+                [0, 1, 2].map(|k| normals[k].extend(uvs[k].x)),
+                uvs.map(|uv| uv.y),
+                index_u32(instance.material),
+            ));
         }
     }
 
@@ -189,12 +189,22 @@ impl World {
             [at(0.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)],
         ] {
             self.triangles.push(bvh::triangle(corners));
-            self.attributes.push(AttributeRecord {
-                normal_u: [normal.extend(0.0).to_array(); 3],
-                v: [0.0; 3],
+            self.attributes.push(attribute_record(
+                [normal.extend(0.0); 3],
+                [0.0; 3],
                 material,
-            });
+            ));
         }
+    }
+}
+
+fn attribute_record(normal_u: [Vec4; 3], [v0, v1, v2]: [f32; 3], material: u32) -> AttributeRecord {
+    let [normal0_u, normal1_u, normal2_u] = normal_u.map(|n| n.to_array());
+    AttributeRecord {
+        normal0_u,
+        normal1_u,
+        normal2_u,
+        v_material: [v0, v1, v2, f32::from_bits(material)],
     }
 }
 
@@ -242,7 +252,9 @@ fn material_record(material: &Material, texture_words: &[u32]) -> MaterialRecord
         },
         texture_word: material.texture.map_or(NONE, |index| texture_words[index]),
         light: NONE,
-        reserved: [0; 3],
+        reserved0: 0,
+        reserved1: 0,
+        reserved2: 0,
     }
 }
 
@@ -264,7 +276,8 @@ fn frame_record(
         sky_zenith: color(scene.sky.zenith),
         sky_horizon: color(scene.sky.horizon),
         sky_ground: color(scene.sky.ground),
-        film_size,
+        film_width: film_size[0],
+        film_height: film_size[1],
         light_count: index_u32(scene.lights.len()),
         triangle_count: index_u32(triangles.len()),
         seed: options.seed,
@@ -295,7 +308,7 @@ fn light_record(light: &RectLight) -> LightRecord {
 
 fn set_camera(frame: &mut FrameRecord, camera: &Camera) -> Result<(), RuntimeError> {
     let [right, up, forward] = camera.axes()?;
-    let [width, height] = frame.film_size.map(|side| side as f32);
+    let [width, height] = [frame.film_width, frame.film_height].map(|side| side as f32);
     let half_height = (0.5 * camera.fov_y_rad).tan();
     frame.camera_position = vector(camera.position);
     frame.camera_right = vector(right * (half_height * width / height));

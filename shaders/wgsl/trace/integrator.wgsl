@@ -95,76 +95,132 @@ fn path_light_weight(light: u32, direction: vec3f, distance: f32, scatter_pdf: f
     return light_mis_weight(scatter_pdf, light_pdf(light, direction, distance));
 }
 
+// Where a path is and what it has gathered.
+struct PathState {
+    ray: Ray,
+    cone: Cone,
+    throughput: vec3f,
+    scatterings: u32,
+    // Density of the last scattering, per solid angle.
+    scatter_pdf: f32,
+    // Length since the last scattering: see-through surfaces do not end a straight line.
+    travelled: f32,
+    ray_count: u32,
+    // Radiance, and opacity of the scene in w.
+    color: vec4f,
+}
+
+fn path_add(path: PathState, radiance: vec3f, scatterings: u32) -> vec4f {
+    return path.color + vec4f(path_clamped(path.throughput * radiance, scatterings), 0.0);
+}
+
+// What the sky gives to a path that met nothing.
+fn path_escape(path: PathState) -> vec4f {
+    if path.scatterings == 0u && trace_frame.transparent_background == 1u {
+        return vec4f(path.color.xyz, 0.0);
+    }
+    return path_add(path, light_sky(path.ray.direction), path.scatterings);
+}
+
+// What the surface's own light gives.
+fn path_emission(path: PathState, material: MaterialRecord, point: SurfacePoint) -> vec4f {
+    if material.light == TRACE_NONE {
+        return path_add(path, material.emission.xyz, path.scatterings);
+    }
+    if !point.front {
+        return path.color;
+    }
+    let weight = path_light_weight(
+        material.light,
+        path.ray.direction,
+        path.travelled,
+        path.scatter_pdf,
+        path.scatterings,
+    );
+    return path_add(path, material.emission.xyz * weight, path.scatterings);
+}
+
+// Sends the path on in a random direction; false when it ends here.
+fn path_scatter(
+    path: ptr<function, PathState>,
+    point: SurfacePoint,
+    frame: mat3x3f,
+    bsdf: Bsdf,
+    out_local: vec3f,
+    stream: ptr<function, u32>,
+) -> bool {
+    let scattered = bsdf_sample(bsdf, out_local, stream);
+    let direction = frame * scattered.direction;
+    // Shading normals may send light through the surface: it ends there.
+    if scattered.pdf <= 0.0 || dot(direction, point.geometric_normal) <= 0.0 {
+        return false;
+    }
+    (*path).throughput *= scattered.weight;
+    (*path).scatterings += 1u;
+    (*path).scatter_pdf = scattered.pdf;
+    (*path).travelled = 0.0;
+    (*path).cone = cone_scatter((*path).cone, scattered.pdf, trace_frame.footprint_scale);
+    (*path).ray = ray_new(ray_offset(point.position, point.geometric_normal), direction, RAY_INFINITY);
+    if (*path).scatterings > PATH_ROULETTE_AFTER {
+        let left = (*path).throughput;
+        let survive = min(max(left.x, max(left.y, left.z)), 0.95);
+        if rng_next(stream) >= survive {
+            return false;
+        }
+        (*path).throughput = left / survive;
+    }
+    return true;
+}
+
+// Light at the surface a path met, and the way on; false when it ends here.
+fn path_shade(
+    path: ptr<function, PathState>,
+    material: MaterialRecord,
+    point: SurfacePoint,
+    base_color: vec3f,
+    stream: ptr<function, u32>,
+) -> bool {
+    (*path).color = path_emission(*path, material, point);
+    if material.light != TRACE_NONE || (*path).scatterings >= trace_frame.max_bounces {
+        return false;
+    }
+    let frame = bsdf_frame(point.shading_normal);
+    let out_local = -(*path).ray.direction * frame;
+    let bsdf = bsdf_new(material, base_color, out_local);
+    if trace_frame.light_count > 0u && trace_frame.light_sampling == LIGHT_SAMPLING_MIS {
+        let direct = path_direct_light(point, frame, bsdf, out_local, (*path).cone, stream);
+        (*path).color = path_add(*path, direct.xyz, (*path).scatterings + 1u);
+        (*path).ray_count += u32(direct.w);
+    }
+    return path_scatter(path, point, frame, bsdf, out_local, stream);
+}
+
 fn path_trace(first_ray: Ray, first_cone: Cone, stream: ptr<function, u32>) -> PathResult {
-    var ray = first_ray;
-    var cone = first_cone;
-    var result = PathResult(vec4f(0.0, 0.0, 0.0, 1.0), 0u);
-    var throughput = vec3f(1.0);
-    var scatterings = 0u;
-    var scatter_pdf = 0.0;
-    // Length of the path since it last scattered: see-through surfaces do not end a straight line.
-    var travelled = 0.0;
+    var path: PathState;
+    path.ray = first_ray;
+    path.cone = first_cone;
+    path.throughput = vec3f(1.0);
+    path.color = vec4f(0.0, 0.0, 0.0, 1.0);
     for (var segment = 0u; segment < PATH_MAX_SEGMENTS; segment++) {
-        let hit = bvh_closest(ray);
-        result.ray_count += 1u;
+        let hit = bvh_closest(path.ray);
+        path.ray_count += 1u;
         if hit.triangle == TRACE_NONE {
-            if scatterings == 0u && trace_frame.transparent_background == 1u {
-                result.color.w = 0.0;
-                break;
-            }
-            result.color += vec4f(path_clamped(throughput * light_sky(ray.direction), scatterings), 0.0);
+            path.color = path_escape(path);
             break;
         }
-        cone = cone_at(cone, hit.t);
-        travelled += hit.t;
-        let point = surface_at(ray, hit, cone);
+        path.cone = cone_at(path.cone, hit.t);
+        path.travelled += hit.t;
+        let point = surface_at(path.ray, hit, path.cone);
         let material = trace_materials[point.material];
         let color = material_color(material, point);
         if color.alpha < 1.0 && rng_next(stream) >= color.alpha {
-            ray = ray_new(ray_offset(point.position, -point.geometric_normal), ray.direction, RAY_INFINITY);
+            let behind = ray_offset(point.position, -point.geometric_normal);
+            path.ray = ray_new(behind, path.ray.direction, RAY_INFINITY);
             continue;
         }
-        let is_light = material.light != TRACE_NONE;
-        if !is_light || point.front {
-            var weight = 1.0;
-            if is_light {
-                weight = path_light_weight(material.light, ray.direction, travelled, scatter_pdf, scatterings);
-            }
-            let seen = throughput * material.emission.xyz * weight;
-            result.color += vec4f(path_clamped(seen, scatterings), 0.0);
-        }
-        if is_light || scatterings >= trace_frame.max_bounces {
+        if !path_shade(&path, material, point, color.base_color, stream) {
             break;
         }
-
-        let frame = bsdf_frame(point.shading_normal);
-        let out_local = -ray.direction * frame;
-        let bsdf = bsdf_new(material, color.base_color, out_local);
-        if trace_frame.light_count > 0u && trace_frame.light_sampling == LIGHT_SAMPLING_MIS {
-            let direct = path_direct_light(point, frame, bsdf, out_local, cone, stream);
-            result.color += vec4f(path_clamped(throughput * direct.xyz, scatterings + 1u), 0.0);
-            result.ray_count += u32(direct.w);
-        }
-
-        let scattered = bsdf_sample(bsdf, out_local, stream);
-        let direction = frame * scattered.direction;
-        // Shading normals may send light through the surface: it ends there.
-        if scattered.pdf <= 0.0 || dot(direction, point.geometric_normal) <= 0.0 {
-            break;
-        }
-        throughput *= scattered.weight;
-        scatterings += 1u;
-        scatter_pdf = scattered.pdf;
-        travelled = 0.0;
-        cone = cone_scatter(cone, scattered.pdf, trace_frame.footprint_scale);
-        if scatterings > PATH_ROULETTE_AFTER {
-            let survive = min(max(throughput.x, max(throughput.y, throughput.z)), 0.95);
-            if rng_next(stream) >= survive {
-                break;
-            }
-            throughput /= survive;
-        }
-        ray = ray_new(ray_offset(point.position, point.geometric_normal), direction, RAY_INFINITY);
     }
-    return result;
+    return PathResult(path.color, path.ray_count);
 }

@@ -2,17 +2,28 @@
 //! metrics, previews and comparisons.
 //!
 //! [`reference`] draws the truth, [`preview`] shoots pictures of a texture, [`metrics`] says how
-//! far they are apart. The commands themselves live in [`command`].
+//! far they are apart, [`comparison`] does all three at a zoom. [`command::run`] is the whole
+//! command.
 
+pub mod args;
+pub mod baking;
+pub mod cache;
 pub mod color;
+pub mod command;
+pub mod comparison;
 pub mod console;
 pub mod failure;
+pub mod fonts;
+pub mod heat;
 pub mod input;
 pub mod metrics;
 pub mod output;
+pub mod page;
 pub mod picture;
 pub mod preview;
 pub mod raster;
 pub mod reference;
 pub mod srgb;
+pub mod texture;
+pub mod tracing;
 pub mod windows;

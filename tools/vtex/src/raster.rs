@@ -7,6 +7,9 @@ use crate::picture::{Picture, encode_png, fit_size};
 use crate::reference::Reference;
 use crate::srgb;
 
+/// Texels of the longer side that a careful user gives a sign today.
+pub const TODAY_TEXELS: u32 = 4096;
+
 /// One mip level: RGBA8, red, green and blue linear light, premultiplied, then sRGB-encoded.
 #[derive(Debug)]
 struct Level {

@@ -1,0 +1,104 @@
+//! From command-line options to a bake.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+use vtex_baker::{BakeConfig, BakeError, Mode, Resources, Stage};
+use vtex_format::{AddressMode, VtexFile};
+
+use crate::args::{Address, BakeMode, BakeOptions};
+use crate::failure::{ExitCode, Failure, Outcome};
+use crate::fonts::FontLibrary;
+
+/// The baker's options for those of the command line; what was not given keeps its default.
+///
+/// # Errors
+/// When a mode is asked for that this version does not have.
+pub fn config(options: &BakeOptions) -> Outcome<BakeConfig> {
+    let default = BakeConfig::default();
+    let mode = match options.mode {
+        BakeMode::Auto => Mode::Auto,
+        BakeMode::Msdf => Mode::Msdf,
+        BakeMode::Raster => Mode::Raster,
+        BakeMode::Curves => {
+            let message = "--mode curves is not in this version; use auto, msdf or raster";
+            return Err(Failure::new(ExitCode::Unsupported, message));
+        }
+    };
+    let address = options.address.map(|address| match address {
+        Address::Clamp => AddressMode::Clamp,
+        Address::Repeat => AddressMode::Repeat,
+        Address::Mirror => AddressMode::Mirror,
+        Address::Border => AddressMode::Border,
+    });
+    Ok(BakeConfig {
+        mode,
+        max_zoom: options.max_zoom.unwrap_or(default.max_zoom),
+        mip0_size: options.size.unwrap_or(default.mip0_size),
+        msdf_size: options.msdf_size.unwrap_or(default.msdf_size),
+        merge: options.merge,
+        mask: options.mask,
+        smoothing: options.smoothing.unwrap_or(default.smoothing),
+        outline_texels: options.outline,
+        fill_color: options.fill_color.map(|color| color.0),
+        stroke_color: options.stroke_color.map(|color| color.0),
+        address: address.map_or(default.address, |mode| [mode; 2]),
+        texture_matrix: options
+            .transform
+            .map_or(default.texture_matrix, |matrix| matrix.0),
+        ..default
+    })
+}
+
+/// Bakes the SVG read from `path`.
+///
+/// # Errors
+/// By whose fault it is: the file's, an option's, a budget's, or ours.
+pub fn bake(
+    path: &Path,
+    svg: &[u8],
+    config: &BakeConfig,
+    fonts: &FontLibrary,
+    observer: &(dyn Fn(Stage) + Sync),
+) -> Outcome<VtexFile> {
+    let resources = Resources {
+        fonts: fonts.for_svg(svg),
+    };
+    let bake = || vtex_baker::bake_observed(svg, config, &resources, observer);
+    // One drawing that trips a defect must not take the others of a folder with it.
+    match catch_unwind(AssertUnwindSafe(bake)) {
+        Ok(baked) => baked.map_err(|error| failure(path, &error)),
+        Err(panic) => Err(panicked(&format!("{}: baking", path.display()), &*panic)),
+    }
+}
+
+fn failure(path: &Path, error: &BakeError) -> Failure {
+    let code = match error {
+        BakeError::Parameter(_) => return Failure::usage(error),
+        BakeError::Svg(_) => ExitCode::InvalidInput,
+        BakeError::Limit(_) => ExitCode::Limit,
+        _ => ExitCode::Runtime,
+    };
+    Failure::new(code, format!("{}: {error}", path.display()))
+}
+
+/// The failure for a panic, which is always our defect.
+pub fn panicked(doing: &str, panic: &(dyn std::any::Any + Send)) -> Failure {
+    let text = panic
+        .downcast_ref::<&str>()
+        .copied()
+        .or_else(|| panic.downcast_ref::<String>().map(String::as_str))
+        .unwrap_or("no message");
+    Failure::runtime(format!(
+        "{doing}: a defect of vtex, please report it: {text}"
+    ))
+}
+
+/// The bytes of a baked file.
+///
+/// # Errors
+/// When the baker made a file that breaks its own format.
+pub fn to_bytes(path: &Path, file: &VtexFile) -> Outcome<Vec<u8>> {
+    file.to_bytes()
+        .map_err(|error| Failure::runtime(format!("{}: {error}", path.display())))
+}

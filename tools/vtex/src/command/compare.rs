@@ -1,0 +1,161 @@
+//! `vtex compare`.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use serde_json::{Value, json};
+use vtex_format::VtexFile;
+
+use crate::args::Compare;
+use crate::comparison::{Comparison, Terms, ZoomReport};
+use crate::console::{Console, Format};
+use crate::failure::{ExitCode, Failure, Outcome};
+use crate::fonts::FontLibrary;
+use crate::page::{Column, Page, Sizes};
+use crate::raster::RasterTexture;
+use crate::reference::{Edges, Reference};
+use crate::texture::{self, Shooter};
+use crate::{input, raster};
+
+/// Runs `vtex compare`.
+pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {
+    if let Some(zoom) = args
+        .zoom
+        .iter()
+        .find(|&&zoom| !(1.0..=65_536.0).contains(&zoom))
+    {
+        return Err(Failure::usage(format!(
+            "--zoom {zoom}: a zoom is 1 to 65536"
+        )));
+    }
+    let svg = input::read(&args.svg)?;
+    let bytes = input::read(&args.file)?;
+    let file = texture::parse(&args.file, &bytes)?;
+    let fonts = FontLibrary::new(args.fonts.clone())?;
+    let reference = Reference::parse(&svg, fonts.for_svg(&svg), Edges::Crisp)
+        .map_err(|error| Failure::invalid(&args.svg, format!("not a usable SVG: {error}")))?;
+    let comparison = Comparison::new(&reference, terms(&args, &file))?;
+    let pack = texture::canvas_options(args.lookup.filter);
+    let shooter = Shooter::new(&file, pack, args.lookup.backend)?;
+    let progress = console.progress(args.zoom.len() as u64, "comparing");
+    let mut reports = Vec::new();
+    for &zoom in &args.zoom {
+        reports.push(comparison.measure(zoom, |shot| shooter.shoot(shot))?);
+        progress.step();
+    }
+    drop(progress);
+    match console.format {
+        Format::Json => console.json(&json(&args, &reports))?,
+        Format::Text => console.result(text(&reports).as_bytes())?,
+    }
+    if let Some(folder) = &args.html {
+        let stock = Stock {
+            svg: &svg,
+            vtex_bytes: bytes.len() as u64,
+            fonts: &fonts,
+        };
+        write_page(&args, folder, &stock, &comparison, &shooter, &reports)?;
+        console.note(&format!("{}", folder.join("index.html").display()));
+    }
+    Ok(verdict(&args, &reports, console))
+}
+
+fn terms(args: &Compare, file: &VtexFile) -> Terms {
+    Terms {
+        longer_px: args.size,
+        spp: args.lookup.spp,
+        mask: file.meta.sampler.mask,
+    }
+}
+
+fn verdict(args: &Compare, reports: &[ZoomReport], console: Console) -> ExitCode {
+    let Some(bound) = args.min_psnr else {
+        return ExitCode::Ok;
+    };
+    let below = |report: &&ZoomReport| report.worst().difference.psnr_db < bound;
+    let mut code = ExitCode::Ok;
+    for report in reports.iter().filter(below) {
+        let psnr = report.worst().difference.psnr_db;
+        let zoom = report.zoom;
+        let name = args.file.display();
+        let message = format!("{name}: {psnr:.2} dB at zoom {zoom} is below --min-psnr {bound}");
+        let failure = Failure::new(ExitCode::Difference, message);
+        console.failure(&failure);
+        code = failure.code;
+    }
+    code
+}
+
+fn json(args: &Compare, reports: &[ZoomReport]) -> Value {
+    json!({
+        "svg": args.svg, "file": args.file, "size": args.size, "spp": args.lookup.spp,
+        "filter": format!("{:?}", args.lookup.filter).to_lowercase(),
+        "backend": format!("{:?}", args.lookup.backend).to_lowercase(),
+        "zooms": reports.iter().map(ZoomReport::to_json).collect::<Vec<_>>(),
+    })
+}
+
+fn text(reports: &[ZoomReport]) -> String {
+    let mut out = format!(
+        "{:>7} {:>9} {:>10} {:>9}  worst window, uv\n",
+        "zoom", "PSNR dB", "wrong px", "max diff"
+    );
+    for report in reports {
+        let worst = report.worst();
+        let found = worst.difference;
+        let view = worst.view;
+        // Writing to a String does not fail.
+        let _ = writeln!(
+            out,
+            "{:>7} {:>9.2} {:>9.3}% {:>9.1}  {:.5},{:.5} to {:.5},{:.5}",
+            report.zoom,
+            found.psnr_db,
+            100.0 * found.wrong_share,
+            found.max_difference,
+            view.u0,
+            view.v0,
+            view.u1,
+            view.v1
+        );
+    }
+    out
+}
+
+struct Stock<'a> {
+    svg: &'a [u8],
+    vtex_bytes: u64,
+    fonts: &'a FontLibrary,
+}
+
+fn write_page(
+    args: &Compare,
+    folder: &Path,
+    stock: &Stock<'_>,
+    comparison: &Comparison<'_>,
+    shooter: &Shooter,
+    reports: &[ZoomReport],
+) -> Outcome<()> {
+    let smooth = Reference::parse(stock.svg, stock.fonts.for_svg(stock.svg), Edges::Smooth)
+        .map_err(|error| Failure::invalid(&args.svg, error))?;
+    let texture = RasterTexture::new(&smooth, raster::TODAY_TEXELS)?;
+    let name = args
+        .svg
+        .file_stem()
+        .map_or_else(|| "drawing".into(), |stem| stem.to_string_lossy());
+    let mut page = Page::new(folder, "vtex compare")?;
+    page.drawing(
+        &name,
+        &Sizes::new(stock.svg.len() as u64, stock.vtex_bytes, &texture)?,
+    );
+    for report in reports {
+        let view = report.worst().view;
+        let truth = comparison.truth(view)?;
+        let shot = comparison.shot(view);
+        let columns = [
+            Column::new(comparison, &truth, shooter.shoot(shot)?),
+            Column::new(comparison, &truth, raster::shoot(&texture, shot)),
+        ];
+        page.row(report.zoom, &truth, &columns)?;
+    }
+    page.finish()
+}

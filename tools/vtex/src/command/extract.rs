@@ -1,0 +1,197 @@
+//! `vtex extract`.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+use vtex_format::{CellWord, Entry, EntryKind, Image, VtexFile};
+
+use crate::args::Extract;
+use crate::console::Console;
+use crate::failure::{ExitCode, Outcome};
+use crate::heat::heat_map;
+use crate::picture::encode_png;
+use crate::{input, output, srgb, texture};
+
+/// Runs `vtex extract`.
+pub(super) fn run(args: &Extract, console: Console) -> Outcome<ExitCode> {
+    let bytes = input::read(&args.file)?;
+    let file = texture::parse(&args.file, &bytes)?;
+    output::create_folder(&args.output)?;
+    let mut folder = Folder {
+        path: args.output.clone(),
+        written: Vec::new(),
+    };
+    folder.shader(&file)?;
+    folder.cells(&file)?;
+    folder.layers(&file)?;
+    folder.images(&file)?;
+    match console.format {
+        crate::console::Format::Json => console.json(&json!(folder.written))?,
+        crate::console::Format::Text => {
+            let (count, name) = (folder.written.len(), args.output.display());
+            console.note(&format!("{name}: {count} files"));
+        }
+    }
+    Ok(ExitCode::Ok)
+}
+
+struct Folder {
+    path: PathBuf,
+    written: Vec<PathBuf>,
+}
+
+impl Folder {
+    fn write(&mut self, name: &str, bytes: &[u8]) -> Outcome<()> {
+        let path = self.path.join(Path::new(name));
+        output::write(&path, bytes)?;
+        self.written.push(path);
+        Ok(())
+    }
+
+    fn png(&mut self, name: &str, size_px: [u32; 2], rgba: &[u8]) -> Outcome<()> {
+        self.write(
+            name,
+            &encode_png(size_px, rgba, png::Compression::Balanced)?,
+        )
+    }
+
+    fn shader(&mut self, file: &VtexFile) -> Outcome<()> {
+        self.write("shader.wgsl", file.shader.wgsl_fragment.as_bytes())?;
+        // SPIR-V is a stream of words in the order of the machine that reads it; files are
+        // little-endian by custom.
+        let spirv: Vec<u8> = file
+            .shader
+            .batch_spirv
+            .iter()
+            .flat_map(|word| word.to_le_bytes())
+            .collect();
+        self.write("batch.spv", &spirv)
+    }
+
+    fn cells(&mut self, file: &VtexFile) -> Outcome<()> {
+        let (size_px, rgba, legend) = heat_map(file);
+        self.png("cells.png", size_px, &rgba)?;
+        self.write("cells.json", format!("{legend:#}\n").as_bytes())
+    }
+
+    fn layers(&mut self, file: &VtexFile) -> Outcome<()> {
+        for (index, lattice) in layer_lattices(file).into_iter().enumerate() {
+            let size_px = lattice_size(file);
+            self.png(
+                &format!("layer-{index:03}-msdf.png"),
+                size_px,
+                lattice.as_flattened(),
+            )?;
+            let inside: Vec<[u8; 4]> = lattice.into_iter().map(thresholded).collect();
+            self.png(
+                &format!("layer-{index:03}-inside.png"),
+                size_px,
+                inside.as_flattened(),
+            )?;
+        }
+        Ok(())
+    }
+
+    fn images(&mut self, file: &VtexFile) -> Outcome<()> {
+        for (index, image) in file.images.iter().enumerate() {
+            for (level, texels) in (0..).zip(&image.mips) {
+                let size_px = Image::level_size(image.size, level);
+                let name = format!("image-{index:03}-mip-{level:02}.png");
+                self.png(&name, size_px, &straight(texels))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn lattice_size(file: &VtexFile) -> [u32; 2] {
+    file.meta
+        .grid
+        .size_cells
+        .map(|cells| cells * file.meta.grid.texels_per_cell + 1)
+}
+
+/// Each layer's tiles put where they belong, RGBA8; transparent where the layer stores nothing
+/// (no edge near, or covered from in front). Where a cell has tiles of several paints the
+/// texel furthest inside is shown.
+fn layer_lattices(file: &VtexFile) -> Vec<Vec<[u8; 4]>> {
+    let [width, height] = lattice_size(file).map(|side| side as usize);
+    let mut lattices = vec![vec![[0; 4]; width * height]; file.layers.len()];
+    let columns = file.meta.grid.size_cells[0].max(1) as usize;
+    let texels_per_cell = file.meta.grid.texels_per_cell as usize;
+    let side = texels_per_cell + 1;
+    let (tiles, _) = file.tiles.as_chunks::<4>();
+    for (cell, tile) in placed_tiles(file) {
+        let Some(layer) = layer_of(file, tile) else {
+            continue;
+        };
+        let origin = cell / columns * texels_per_cell * width + cell % columns * texels_per_cell;
+        let texels = &tiles[tile as usize * side * side..][..side * side];
+        for (row, line) in texels.chunks_exact(side).enumerate() {
+            for (column, &texel) in line.iter().enumerate() {
+                let stored = &mut lattices[layer][origin + row * width + column];
+                if stored[3] == 0 || median(texel) > median(*stored) {
+                    *stored = [texel[0], texel[1], texel[2], 255];
+                }
+            }
+        }
+    }
+    lattices
+}
+
+/// Every cell with every tile that its list names.
+fn placed_tiles(file: &VtexFile) -> Vec<(usize, u32)> {
+    let (pairs, _) = file.entries.as_chunks::<2>();
+    let mut placed = Vec::new();
+    for (cell, &word) in file.cells.iter().enumerate() {
+        let Some(CellWord::List { offset_words }) = CellWord::decode(word) else {
+            continue;
+        };
+        for entry in pairs
+            .iter()
+            .skip(offset_words as usize / 2)
+            .map_while(|&p| Entry::decode(p))
+        {
+            if entry.kind == EntryKind::Msdf {
+                placed.push((cell, entry.data));
+            }
+            if entry.last {
+                break;
+            }
+        }
+    }
+    placed
+}
+
+fn layer_of(file: &VtexFile, tile: u32) -> Option<usize> {
+    file.layers
+        .iter()
+        .position(|layer| (layer.tile_first..layer.tile_first + layer.tile_count).contains(&tile))
+}
+
+fn median([r, g, b, _]: [u8; 4]) -> u8 {
+    r.min(g).max(r.max(g).min(b))
+}
+
+/// White inside, black outside, transparent where nothing is stored.
+fn thresholded(texel: [u8; 4]) -> [u8; 4] {
+    let value = if median(texel) >= 128 { 255 } else { 0 };
+    [value, value, value, texel[3]]
+}
+
+/// Premultiplied linear light, encoded, as straight sRGB.
+fn straight(texels: &[u8]) -> Vec<u8> {
+    let convert = |&[r, g, b, a]: &[u8; 4]| {
+        if a == 0 {
+            return [0; 4];
+        }
+        let alpha = f32::from(a) / 255.0;
+        let [r, g, b] = [r, g, b].map(|c| {
+            srgb::byte(srgb::encode(
+                (srgb::decode(f32::from(c) / 255.0) / alpha).min(1.0),
+            ))
+        });
+        [r, g, b, a]
+    };
+    texels.as_chunks::<4>().0.iter().flat_map(convert).collect()
+}

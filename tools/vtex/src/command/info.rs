@@ -1,0 +1,435 @@
+//! `vtex info`.
+
+use std::fmt::Write as _;
+
+use serde_json::{Value, json};
+use vtex_format::{
+    COVERAGE_IMAGE, CellWord, Directory, Features, Limits, PaintRecord, ShapeRecord, VtexFile,
+    Warning, directory,
+};
+
+use crate::args::Info;
+use crate::console::{Console, Format, human_bytes};
+use crate::failure::{ExitCode, Outcome};
+use crate::heat::entry_counts;
+use crate::{input, texture};
+
+/// Shapes listed unless `--verbose`.
+const SHAPES_SHOWN: usize = 24;
+
+/// Runs `vtex info`.
+pub(super) fn run(args: &Info, console: Console) -> Outcome<ExitCode> {
+    let bytes = input::read(&args.file)?;
+    let file = texture::parse(&args.file, &bytes)?;
+    let directory = directory(&bytes, &Limits::default())
+        .map_err(|error| texture::read_failure(&args.file, &error))?;
+    match console.format {
+        Format::Json => console.json(&json(&file, &directory))?,
+        Format::Text => {
+            let all = console.verbosity == crate::console::Verbosity::Verbose;
+            let shown = if all { usize::MAX } else { SHAPES_SHOWN };
+            console.result(text(&file, &directory, shown).as_bytes())?;
+        }
+    }
+    Ok(ExitCode::Ok)
+}
+
+/// What the cells hold.
+struct CellStats {
+    empty: u64,
+    single: u64,
+    lists: u64,
+    entries_mean: f64,
+    entries_max: u32,
+}
+
+impl CellStats {
+    fn new(file: &VtexFile) -> Self {
+        let count = |wanted: fn(CellWord) -> bool| {
+            let words = file.cells.iter().filter_map(|&word| CellWord::decode(word));
+            words.filter(|&cell| wanted(cell)).count() as u64
+        };
+        let lists = count(|cell| matches!(cell, CellWord::List { .. }));
+        let lengths = entry_counts(file);
+        let listed: u64 = lengths.iter().map(|&length| u64::from(length)).sum();
+        Self {
+            empty: count(|cell| cell == CellWord::Empty),
+            single: count(|cell| matches!(cell, CellWord::Solid { .. })),
+            lists,
+            entries_mean: listed as f64 / lists.max(1) as f64,
+            entries_max: lengths.into_iter().max().unwrap_or(0),
+        }
+    }
+}
+
+/// Names of the features in a shader key.
+pub(crate) fn feature_names(features: u32) -> Vec<&'static str> {
+    let names = [
+        (Features::LISTS, "lists"),
+        (Features::MSDF, "msdf"),
+        (Features::IMAGES, "images"),
+        (Features::MIPS, "mips"),
+        (Features::TRANSLUCENT, "translucent"),
+        (Features::MASK, "mask"),
+        (Features::OUTLINE, "outline"),
+        (Features::TEXTURE_MATRIX, "texture-matrix"),
+    ];
+    names
+        .into_iter()
+        .filter(|(bit, _)| features & bit != 0)
+        .map(|(_, name)| name)
+        .collect()
+}
+
+fn json(file: &VtexFile, directory: &Directory) -> Value {
+    let meta = &file.meta;
+    let cells = CellStats::new(file);
+    let provenance = file.provenance.as_ref();
+    let layers: Vec<_> = (0..)
+        .zip(&file.layers)
+        .map(|(index, layer)| json!({"tiles": layer.tile_count, "shapes": members(file, index)}))
+        .collect();
+    let images: Vec<_> = file.images.iter().map(|image| {
+        json!({"rect_uv": image.rect_uv, "size": image.size, "levels": image.mips.len()})
+    }).collect();
+    let sections: Vec<_> = directory.sections.iter().map(|section| json!({
+        "tag": section.tag.to_string(), "codec": format!("{:?}", section.codec).to_lowercase(),
+        "raw_bytes": section.raw_bytes, "stored_bytes": section.stored_bytes,
+        "group": section.group, "mip": section.mip,
+    })).collect();
+    let shapes: Vec<_> = file
+        .shapes
+        .iter()
+        .enumerate()
+        .map(|(index, shape)| shape_json(file, index, shape))
+        .collect();
+    json!({
+        "version": format!("{}.{}", directory.version_major, directory.version_minor),
+        "file_bytes": directory.file_bytes,
+        "raw_bytes": raw_bytes(directory),
+        "canvas_size": meta.canvas_size,
+        "max_zoom": meta.max_zoom,
+        "grid": {
+            "size_cells": meta.grid.size_cells, "texels_per_cell": meta.grid.texels_per_cell,
+            "distance_range_texels": meta.distance_range_texels,
+        },
+        "sampler": {
+            "address": meta.sampler.address.map(|mode| format!("{mode:?}").to_lowercase()),
+            "texture_matrix": meta.sampler.texture_matrix, "smoothing": meta.sampler.smoothing,
+            "mask": meta.sampler.mask,
+            "outline_texels": meta.sampler.outline.map(|outline| outline.width_texels),
+        },
+        "cells": {
+            "empty": cells.empty, "single": cells.single, "lists": cells.lists,
+            "entries_mean": cells.entries_mean, "entries_max": cells.entries_max,
+        },
+        "tiles": tile_count(file), "paints": file.paints.len(),
+        "layers": layers, "shapes": shapes, "images": images, "sections": sections,
+        "shader": {
+            "abi": file.spec.abi, "features": feature_names(file.spec.features),
+            "key": spec_words(file), "wgsl_bytes": file.shader.wgsl_fragment.len(),
+            "spirv_bytes": 4 * file.shader.batch_spirv.len(),
+        },
+        "tool": provenance.map(|p| &p.tool),
+        "source_hash": provenance.map(|p| hex(&p.source_hash)),
+        "options": provenance.map(|p| &p.options),
+        "warnings": warnings_json(provenance.map_or(&[], |p| &p.warnings)),
+    })
+}
+
+fn shape_json(file: &VtexFile, index: usize, shape: &ShapeRecord) -> Value {
+    let report = file.provenance.as_ref().and_then(|p| p.shapes.get(index));
+    let place = if shape.coverage == COVERAGE_IMAGE {
+        "image"
+    } else {
+        "layer"
+    };
+    json!({
+        "element": report.map(|r| &r.element), "source": report.map(|r| &r.source),
+        "note": report.map(|r| &r.note), place: shape.layer_or_image,
+        "bounds_uv": shape.bounds_uv, "segments": shape.segment_count,
+        "color": file.paints.get(shape.paint as usize).map(|paint| paint.color),
+    })
+}
+
+/// Shapes of a layer by their place in the painter's order.
+fn members(file: &VtexFile, layer: u32) -> Vec<usize> {
+    let in_layer =
+        |shape: &ShapeRecord| shape.coverage != COVERAGE_IMAGE && shape.layer_or_image == layer;
+    let shapes = file.shapes.iter().enumerate();
+    shapes
+        .filter(|(_, shape)| in_layer(shape))
+        .map(|(index, _)| index)
+        .collect()
+}
+
+fn spec_words(file: &VtexFile) -> String {
+    hex(bytemuck::bytes_of(&file.spec))
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::new(), |mut text, byte| {
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
+}
+
+fn tile_count(file: &VtexFile) -> u64 {
+    file.layers
+        .iter()
+        .map(|layer| u64::from(layer.tile_count))
+        .sum()
+}
+
+fn raw_bytes(directory: &Directory) -> u64 {
+    directory
+        .sections
+        .iter()
+        .map(|section| section.raw_bytes)
+        .sum()
+}
+
+/// Warnings as JSON.
+pub(super) fn warnings_json(warnings: &[Warning]) -> Value {
+    warnings
+        .iter()
+        .map(|warning| {
+            json!({
+                "code": warning.code as u32, "name": format!("{:?}", warning.code),
+                "feature": warning.feature, "element": warning.element, "message": warning.message,
+            })
+        })
+        .collect()
+}
+
+/// A warning for people.
+pub(super) fn warning_text(warning: &Warning) -> String {
+    match warning.element.as_str() {
+        "" => warning.message.clone(),
+        element => format!("#{element}: {}", warning.message),
+    }
+}
+
+fn text(file: &VtexFile, directory: &Directory, shapes_shown: usize) -> String {
+    let mut out = String::new();
+    // Writing to a String does not fail.
+    let _ = general(&mut out, file, directory);
+    let _ = layers(&mut out, file);
+    let _ = shapes(&mut out, file, shapes_shown);
+    let _ = images(&mut out, file);
+    let _ = sections(&mut out, directory);
+    let _ = warnings(&mut out, file);
+    out
+}
+
+fn general(out: &mut String, file: &VtexFile, directory: &Directory) -> std::fmt::Result {
+    let meta = &file.meta;
+    let grid = &meta.grid;
+    let cells = CellStats::new(file);
+    let total = file.cells.len().max(1) as f64;
+    let share = |count: u64| 100.0 * count as f64 / total;
+    writeln!(
+        out,
+        "format     {}.{}, {} ({} raw)",
+        directory.version_major,
+        directory.version_minor,
+        human_bytes(directory.file_bytes),
+        human_bytes(raw_bytes(directory))
+    )?;
+    if let Some(provenance) = &file.provenance {
+        writeln!(
+            out,
+            "made by    {} from {}",
+            provenance.tool,
+            hex(&provenance.source_hash)
+        )?;
+    }
+    let [width, height] = meta.canvas_size;
+    writeln!(
+        out,
+        "canvas     {width} x {height} user units, prepared for zoom {}",
+        meta.max_zoom
+    )?;
+    writeln!(
+        out,
+        "cells      {} x {}: {} empty ({:.1}%), {} single colour ({:.1}%), {} lists ({:.1}%)",
+        grid.size_cells[0],
+        grid.size_cells[1],
+        cells.empty,
+        share(cells.empty),
+        cells.single,
+        share(cells.single),
+        cells.lists,
+        share(cells.lists)
+    )?;
+    writeln!(
+        out,
+        "lists      {:.2} entries on average, {} at most",
+        cells.entries_mean, cells.entries_max
+    )?;
+    let side = grid.texels_per_cell + 1;
+    writeln!(
+        out,
+        "tiles      {} of {side} x {side} texels, distance range {} texels",
+        tile_count(file),
+        meta.distance_range_texels
+    )?;
+    writeln!(out, "paints     {}", file.paints.len())?;
+    writeln!(out, "sampler    {}", sampler(file))?;
+    writeln!(
+        out,
+        "shader     ABI {}, {}; WGSL {}, SPIR-V {}",
+        file.spec.abi,
+        feature_names(file.spec.features).join(" "),
+        human_bytes(file.shader.wgsl_fragment.len() as u64),
+        human_bytes(4 * file.shader.batch_spirv.len() as u64)
+    )?;
+    writeln!(out, "key        {}", spec_words(file))
+}
+
+fn sampler(file: &VtexFile) -> String {
+    let sampler = &file.meta.sampler;
+    let [u, v] = sampler
+        .address
+        .map(|mode| format!("{mode:?}").to_lowercase());
+    let address = if u == v { u } else { format!("{u} {v}") };
+    let mut text = format!("address {address}, smoothing {}", sampler.smoothing);
+    if file.spec.features & Features::TEXTURE_MATRIX != 0 {
+        let _ = write!(text, ", matrix {:?}", sampler.texture_matrix);
+    }
+    if let Some(outline) = sampler.outline {
+        let _ = write!(text, ", outline {} texels", outline.width_texels);
+    }
+    if sampler.mask {
+        text.push_str(", mask");
+    }
+    text
+}
+
+fn layers(out: &mut String, file: &VtexFile) -> std::fmt::Result {
+    writeln!(
+        out,
+        "\n{} layers, back to front\n{:>5} {:>8} {:>8}",
+        file.layers.len(),
+        "layer",
+        "shapes",
+        "tiles"
+    )?;
+    for (index, layer) in file.layers.iter().enumerate() {
+        writeln!(
+            out,
+            "{index:>5} {:>8} {:>8}",
+            layer.shape_count, layer.tile_count
+        )?;
+    }
+    Ok(())
+}
+
+fn shapes(out: &mut String, file: &VtexFile, shown: usize) -> std::fmt::Result {
+    let columns = ["shape", "layer", "segments", "colour", "element"];
+    let [shape, layer, segments, colour, element] = columns;
+    let count = file.shapes.len();
+    writeln!(
+        out,
+        "\n{count} shapes in painter's order\n{shape:>5} {layer:>7} {segments:>9}  {colour:9}  {element}"
+    )?;
+    for (index, shape) in file.shapes.iter().enumerate().take(shown) {
+        let report = file.provenance.as_ref().and_then(|p| p.shapes.get(index));
+        let place = match shape.coverage {
+            COVERAGE_IMAGE => format!("image {}", shape.layer_or_image),
+            _ => shape.layer_or_image.to_string(),
+        };
+        let colour = match file.paints.get(shape.paint as usize) {
+            Some(paint) if shape.coverage != COVERAGE_IMAGE => css(paint),
+            _ => "-".to_owned(),
+        };
+        let what = report.map_or_else(String::new, |report| {
+            format!("{} {} {}", report.source, report.element, report.note)
+                .trim_end()
+                .to_owned()
+        });
+        writeln!(
+            out,
+            "{index:>5} {place:>7} {:>9}  {colour:9}  {what}",
+            shape.segment_count
+        )?;
+    }
+    if count > shown {
+        writeln!(out, "      ... {} more (-v)", count - shown)?;
+    }
+    Ok(())
+}
+
+fn css(paint: &PaintRecord) -> String {
+    format!("#{}", hex(&paint.color.map(crate::srgb::byte)))
+}
+
+fn images(out: &mut String, file: &VtexFile) -> std::fmt::Result {
+    writeln!(
+        out,
+        "\n{} images\n{:>5} {:>13} {:>7}  uv",
+        file.images.len(),
+        "image",
+        "texels",
+        "levels"
+    )?;
+    for (index, image) in file.images.iter().enumerate() {
+        let size = format!("{} x {}", image.size[0], image.size[1]);
+        let [u0, v0, u1, v1] = image.rect_uv;
+        let rect = format!("{u0:.4},{v0:.4} to {u1:.4},{v1:.4}");
+        let levels = image.mips.len();
+        let is_canvas = index == 0 && file.spec.features & Features::MIPS != 0;
+        let what = if is_canvas { "canvas mips, " } else { "" };
+        writeln!(out, "{index:>5} {size:>13} {levels:>7}  {what}{rect}")?;
+    }
+    Ok(())
+}
+
+fn sections(out: &mut String, directory: &Directory) -> std::fmt::Result {
+    writeln!(
+        out,
+        "\nsections by tag\n{:5} {:>6} {:>12} {:>12}",
+        "tag", "parts", "raw", "stored"
+    )?;
+    let mut tags: Vec<_> = directory
+        .sections
+        .iter()
+        .map(|section| section.tag)
+        .collect();
+    tags.dedup();
+    for tag in tags {
+        let parts = || {
+            directory
+                .sections
+                .iter()
+                .filter(|section| section.tag == tag)
+        };
+        let raw: u64 = parts().map(|section| section.raw_bytes).sum();
+        let stored: u64 = parts().map(|section| section.stored_bytes).sum();
+        let tag = tag.to_string();
+        writeln!(out, "{tag:5} {:>6} {raw:>12} {stored:>12}", parts().count())?;
+    }
+    let raw = raw_bytes(directory);
+    writeln!(
+        out,
+        "{:5} {:>6} {raw:>12} {:>12}",
+        "all",
+        directory.sections.len(),
+        directory.file_bytes
+    )
+}
+
+fn warnings(out: &mut String, file: &VtexFile) -> std::fmt::Result {
+    let warnings = file.provenance.as_ref().map_or(&[][..], |p| &p.warnings);
+    writeln!(out, "\n{} warnings", warnings.len())?;
+    for warning in warnings {
+        writeln!(
+            out,
+            "  {:?} {}: {}",
+            warning.code,
+            warning.feature,
+            warning_text(warning)
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,46 @@
+//! `vtex preview`.
+
+use vtex_format::VtexFile;
+
+use crate::args::{Preview, Size};
+use crate::console::Console;
+use crate::failure::{ExitCode, Outcome};
+use crate::picture::{View, fit_size};
+use crate::preview::Shot;
+use crate::texture::{self, Shooter};
+use crate::{input, output};
+
+/// Runs `vtex preview`.
+pub(super) fn run(args: &Preview, console: Console) -> Outcome<ExitCode> {
+    let bytes = input::read(&args.file)?;
+    let file = texture::parse(&args.file, &bytes)?;
+    let view = args.view.unwrap_or(View::WHOLE);
+    let shot = Shot {
+        view,
+        size_px: size_px(args.size, view, &file),
+        spp: args.lookup.spp,
+    };
+    let pack = texture::pack_options(args.lookup.filter);
+    let picture = Shooter::new(&file, pack, args.lookup.backend)?.shoot(shot)?;
+    let png = picture.to_png()?;
+    if args.output.as_os_str() == "-" {
+        console.result(&png)?;
+    } else {
+        output::write(&args.output, &png)?;
+        let [width, height] = shot.size_px;
+        console.note(&format!("{}: {width} x {height}", args.output.display()));
+    }
+    Ok(ExitCode::Ok)
+}
+
+/// The size in pixels, keeping the proportions of what is shown where one side is given.
+pub(super) fn size_px(size: Size, view: View, file: &VtexFile) -> [u32; 2] {
+    match size {
+        Size::Exact(size) => size,
+        Size::Longer(longer) => {
+            let extent = view.extent();
+            let canvas = file.meta.canvas_size.map(f64::from);
+            fit_size([canvas[0] * extent[0], canvas[1] * extent[1]], longer)
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! `vtex render`.
+
+use std::path::Path;
+
+use vtex_baker::BakeConfig;
+use vtex_format::VtexFile;
+
+use crate::args::{Render, Size};
+use crate::console::Console;
+use crate::failure::{ExitCode, Failure, Outcome};
+use crate::fonts::FontLibrary;
+use crate::picture::View;
+use crate::tracing::{self, SceneKind, Settings};
+use crate::{baking, input, output, texture};
+
+/// Runs `vtex render`.
+pub(super) fn run(args: Render, console: Console) -> Outcome<ExitCode> {
+    // Before minutes of tracing, not after them.
+    if !["png", "exr"].contains(&tracing::extension(&args.output).as_str()) {
+        let name = args.output.display();
+        return Err(Failure::usage(format!("{name}: neither .png nor .exr")));
+    }
+    let fonts = FontLibrary::new(args.fonts.clone())?;
+    let files = args
+        .scene
+        .iter()
+        .map(|path| load(path, &fonts))
+        .collect::<Outcome<Vec<_>>>()?;
+    let kind = match files.as_slice() {
+        [_] if !args.showroom => SceneKind::Plane,
+        _ => SceneKind::Showroom,
+    };
+    let size_px = match (args.size, kind, files.first()) {
+        (size, SceneKind::Plane, Some(file)) => super::preview::size_px(size, View::WHOLE, file),
+        (Size::Exact(size), ..) => size,
+        // The showroom is framed for 3:2.
+        (Size::Longer(longer), ..) => [longer, (longer * 2 / 3).max(1)],
+    };
+    let Render {
+        spp, bounces, seed, ..
+    } = args;
+    let settings = Settings {
+        size_px,
+        spp,
+        bounces,
+        seed,
+        kind,
+    };
+    let film = tracing::trace(files, settings, console)?;
+    output::write(&args.output, &tracing::encode(&film, kind, &args.output)?)?;
+    let [width, height] = size_px;
+    console.note(&format!(
+        "{}: {width} x {height}, {spp} spp",
+        args.output.display()
+    ));
+    Ok(ExitCode::Ok)
+}
+
+/// Reads a .vtex file, or bakes what is taken for an SVG.
+fn load(path: &Path, fonts: &FontLibrary) -> Outcome<VtexFile> {
+    let bytes = input::read(path)?;
+    if tracing::extension(path) == "vtex" {
+        texture::parse(path, &bytes)
+    } else {
+        baking::bake(path, &bytes, &BakeConfig::default(), fonts, &|_| ())
+    }
+}

@@ -1,0 +1,68 @@
+//! `vtex validate`.
+
+use serde_json::{Value, json};
+use vtex_format::{Fault, Issue, Limits, validate};
+
+use crate::args::Validate;
+use crate::console::{Console, Format};
+use crate::failure::{ExitCode, Failure, Outcome};
+use crate::input;
+
+/// Runs `vtex validate`.
+pub(super) fn run(args: &Validate, console: Console) -> Outcome<ExitCode> {
+    let mut worst = ExitCode::Ok;
+    let mut reports = Vec::new();
+    for path in &args.files {
+        let name = path.display();
+        match input::read(path) {
+            Ok(bytes) => {
+                let issues = validate(&bytes, &Limits::default());
+                worst = worst.max(code(&issues));
+                if console.format == Format::Text {
+                    let text = match issues.as_slice() {
+                        [] => format!("{name}: ok\n"),
+                        issues => issues
+                            .iter()
+                            .map(|issue| format!("{name}: {issue}\n"))
+                            .collect(),
+                    };
+                    console.result(text.as_bytes())?;
+                }
+                if !issues.is_empty() {
+                    let count = issues.len();
+                    let message = format!("{name}: {count} issues; bake or fetch it again");
+                    console.failure(&Failure::new(code(&issues), message));
+                }
+                reports.push(json!({"file": path, "issues": issues_json(&issues)}));
+            }
+            Err(failure) => {
+                console.failure(&failure);
+                worst = worst.max(failure.code);
+                reports.push(json!({"file": path, "error": failure.message}));
+            }
+        }
+    }
+    if console.format == Format::Json {
+        console.json(&Value::Array(reports))?;
+    }
+    Ok(worst)
+}
+
+fn code(issues: &[Issue]) -> ExitCode {
+    match issues.first().map(|issue| issue.fault) {
+        None => ExitCode::Ok,
+        Some(Fault::Malformed) => ExitCode::InvalidInput,
+        Some(Fault::Unsupported) => ExitCode::Unsupported,
+        Some(Fault::Limits) => ExitCode::Limit,
+    }
+}
+
+fn issues_json(issues: &[Issue]) -> Value {
+    let one = |issue: &Issue| {
+        json!({
+            "code": format!("V{:04}", issue.code), "section": issue.section.to_string(),
+            "offset_bytes": issue.offset_bytes, "message": issue.message,
+        })
+    };
+    issues.iter().map(one).collect()
+}

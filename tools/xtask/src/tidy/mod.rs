@@ -1,0 +1,42 @@
+//! `cargo xtask tidy`: the rules that no compiler knows.
+
+mod graph;
+mod specification;
+mod text;
+
+use anyhow::{Context, Result};
+
+use crate::workspace::Workspace;
+
+/// Checks the whole workspace and prints what is wrong. False when something is.
+pub(crate) fn run(ws: &Workspace) -> Result<bool> {
+    let mut problems = Vec::new();
+    let metadata = ws.metadata()?;
+    let packages = graph::packages(&metadata)?;
+    problems.extend(graph::check(&packages));
+    for package in packages.iter().filter(|package| package.is_member) {
+        let manifest = ws
+            .read(&package.manifest)?
+            .context("a manifest is not UTF-8")?;
+        problems.extend(text::check_manifest(&package.manifest, &manifest));
+    }
+    let files = ws.files()?;
+    for file in &files {
+        if let Some(content) = ws.read(file)? {
+            problems.extend(text::check(file, &content));
+        }
+    }
+    let read = |file| {
+        ws.read(file)?
+            .with_context(|| format!("{file} is not UTF-8"))
+    };
+    problems.extend(specification::check(
+        &read(specification::ISSUES)?,
+        &read(specification::DOCUMENT)?,
+    ));
+    for problem in &problems {
+        println!("{problem}");
+    }
+    println!("tidy: {} files, {} problems", files.len(), problems.len());
+    Ok(problems.is_empty())
+}
