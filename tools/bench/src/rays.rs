@@ -3,14 +3,14 @@
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, Result};
-use vtex_baker::Resources;
+use vtex_baker::{BakeConfig, Mode, Resources};
 use vtex_format::VtexFile;
 use vtex_runtime::{LoadOptions, Scene, TraceOptions, Tracer, scene};
 
 use crate::clock::{Trial, interleave};
 use crate::device::Device;
 use crate::rivals::Effort;
-use crate::subject::{Subject, raster_config, read};
+use crate::subject::{Subject, read};
 use crate::table::{Cell, Table};
 
 /// The film. Small, since a software driver does about a million rays a second.
@@ -41,14 +41,14 @@ pub(crate) fn rays_table(
         FILM[1],
         TraceOptions::default().max_bounces,
     ));
+    let config = BakeConfig {
+        mode: Mode::Raster,
+        mip0_size: RASTER_SIZE,
+        ..BakeConfig::default()
+    };
     let mut rasters = Vec::new();
     for (path, subject) in subjects {
-        let file = vtex_baker::bake_observed(
-            &read(path)?,
-            &raster_config(RASTER_SIZE),
-            resources,
-            &|_| (),
-        );
+        let file = vtex_baker::bake_observed(&read(path)?, &config, resources, &|_| ());
         rasters.push(file.with_context(|| format!("cannot bake {}", subject.name))?);
     }
     let vectors: Vec<VtexFile> = subjects
