@@ -1,16 +1,18 @@
 //! The lists against the painter: what a cell names must be what shows there.
 
+#![expect(clippy::print_stdout, reason = "says when there is no corpus")]
+
 use kurbo::{Point, Rect, Shape as _};
 use vtex_format::{CellWord, EntryKind, VtexFile};
 
 use crate::{
-    config::BakeConfig,
+    config::{BakeConfig, Resources},
     drawing::{Drawing, FillRule, Item},
     encode::assemble,
-    geometry::{floor_index, line_box_distance},
+    geometry::line_box_distance,
     grid::Lattice,
     placed::{Placed, PlacedKind, place},
-    testing::{Evaluator, Random, corpus_file, drawing_of, random_outline, shape},
+    testing::{Evaluator, Random, corpus_file, corpus_root, drawing_of, random_outline, shape},
 };
 
 fn bake(drawing: Drawing, config: &BakeConfig) -> VtexFile {
@@ -125,15 +127,15 @@ fn tile_contains(file: &VtexFile, placed: &[Placed], tile: u32, paint: u32, p: P
 
 #[test]
 fn lists_show_what_the_painter_paints() {
-    for seed in 0..6 {
+    for (seed, msdf_size) in (0..).zip([64, 200, 512, 64, 200, 512]) {
         let config = BakeConfig {
-            msdf_size: [64, 200, 512][seed as usize % 3],
+            msdf_size,
             ..BakeConfig::default()
         };
         let file = bake(random_drawing(seed, 60), &config);
-        let tally = compare_lists(&random_drawing(seed, 60), &file, &config, 50_000);
+        let tally = compare_lists(&random_drawing(seed, 60), &file, &config, 20_000);
         assert_eq!(tally.wrong, 0, "{tally:?}");
-        assert!(tally.compared > 45_000 && tally.entries > 1000, "{tally:?}");
+        assert!(tally.compared > 18_000 && tally.entries > 1000, "{tally:?}");
     }
 }
 
@@ -144,10 +146,12 @@ fn tiger_lists_show_what_the_painter_paints() {
         return;
     };
     let config = BakeConfig::default();
-    let file = bake(drawing_of(&svg), &config);
-    let tally = compare_lists(&drawing_of(&svg), &file, &config, 300_000);
+    let file = bake(drawing_of(&svg, &config), &config);
+    let slow = std::env::var_os("VTEX_SLOW").is_some();
+    let points = if slow { 300_000 } else { 30_000 };
+    let tally = compare_lists(&drawing_of(&svg, &config), &file, &config, points);
     assert_eq!(tally.wrong, 0, "{tally:?}");
-    assert!(tally.compared > 290_000, "{tally:?}");
+    assert!(tally.compared > 29_000, "{tally:?}");
 }
 
 /// Every texel of every tile: its median's side is its lattice point's side.
@@ -268,10 +272,10 @@ fn merged_shapes_share_a_layer_and_are_warned_about() {
     };
     assert!(warned(&file));
     let mut apart = random_drawing(6, 2);
-    apart.items = [20.0, 70.0]
-        .map(|x| {
+    apart.items = [(20.0, 0.2), (70.0, 0.7)]
+        .map(|(x, red)| {
             let circle = kurbo::Circle::new((x, 40.0), 10.0).to_path(1e-3);
-            shape(circle, FillRule::NonZero, [x as f32 / 100.0, 0.0, 0.0, 1.0])
+            shape(circle, FillRule::NonZero, [red, 0.0, 0.0, 1.0])
         })
         .into();
     assert!(!warned(&bake(apart, &config)));
@@ -351,10 +355,53 @@ fn odd_outlines_do_no_harm() {
         warnings: Vec::new(),
     };
     let file = bake(drawing, &BakeConfig::default());
-    // Only the huge rectangle shows.
-    let solid: Vec<_> = file.cells.iter().collect();
-    assert!(floor_index(solid.len() as f64) > 0);
+    // Only the huge rectangle shows there.
     let evaluator = Evaluator { file: &file };
     let c = evaluator.point([0.7, 0.7]);
-    assert!(c.iter().all(|v| (v - 0.5_f64).abs() < 0.26), "{c:?}");
+    assert!(
+        c.iter()
+            .zip([0.25, 0.25, 0.25, 0.5])
+            .all(|(a, b)| (a - b).abs() < 1e-6),
+        "{c:?}"
+    );
+}
+
+/// Solid files of the corpus: each bakes to a valid file whose lists show what the painter paints.
+#[test]
+fn corpus_files_are_listed_right() {
+    let mut names: Vec<_> = ["paper5", "icons", "flags", "logos", "signs"]
+        .iter()
+        .filter_map(|folder| std::fs::read_dir(corpus_root().join(folder)).ok())
+        .flatten()
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| path.extension().is_some_and(|extension| extension == "svg"))
+        .collect();
+    names.sort();
+    if names.is_empty() {
+        println!("no corpus, nothing compared");
+    }
+    let every = if std::env::var_os("VTEX_SLOW").is_some() {
+        1
+    } else {
+        12
+    };
+    let config = BakeConfig {
+        msdf_size: 256,
+        mip0_size: 64,
+        ..BakeConfig::default()
+    };
+    for path in names.iter().step_by(every) {
+        let svg = std::fs::read(path).unwrap();
+        let Ok(mut drawing) = crate::draw(&svg, &config, &Resources::default(), &|_| ()) else {
+            println!("not drawn: {}", path.display());
+            continue;
+        };
+        let mut again = crate::draw(&svg, &config, &Resources::default(), &|_| ()).unwrap();
+        for drawing in [&mut drawing, &mut again] {
+            drawing.items.retain(|item| matches!(item, Item::Shape(_)));
+        }
+        let file = bake(drawing, &config);
+        let tally = compare_lists(&again, &file, &config, 2_000);
+        assert_eq!(tally.wrong, 0, "{} {tally:?}", path.display());
+    }
 }

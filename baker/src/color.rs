@@ -46,7 +46,7 @@ struct Tables {
 static TABLES: LazyLock<Tables> = LazyLock::new(|| {
     let mut decode_table = [0.0; 256];
     let mut threshold = [f32::INFINITY; 257];
-    for (code, (value, first)) in (0u16..256).zip(decode_table.iter_mut().zip(&mut threshold)) {
+    for (code, (value, first)) in (0_u16..256).zip(decode_table.iter_mut().zip(&mut threshold)) {
         *value = decode(f32::from(code) / 255.0);
         *first = decode(((f32::from(code) - 0.5) / 255.0).max(0.0));
     }
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn the_table_encodes_as_the_formula_does() {
-        for step in 0..=200_000u32 {
+        for step in 0..=200_000_u32 {
             let x = step as f32 / 200_000.0;
             let distance = (encode(x) * 255.0 - f32::from(encode_u8(x))).abs();
             assert!(distance <= 0.501, "{distance} codes off at {x}");
@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn codes_survive_the_round_trips() {
-        for code in 0..=255u8 {
+        for code in 0..=255_u8 {
             assert_eq!(encode_u8(decode_u8(code)), code);
             let opaque = [code, 255 - code, 7, 255];
             assert_eq!(skia_from_linear(linear_from_skia(opaque)), opaque);

@@ -55,7 +55,7 @@ impl Default for BakeConfig {
         Self {
             mode: Mode::Auto,
             mip0_size: 512,
-            msdf_size: 512,
+            msdf_size: 1024,
             distance_range_texels: 4.0,
             max_zoom: 64.0,
             merge: false,

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 
 use crate::picture_tests::{compare, dump};
-use crate::{BakeConfig, Resources, draw};
+use crate::{BakeConfig, Mode, Resources, draw, raster};
 
 const SIZE: u32 = 512;
 
@@ -25,6 +25,17 @@ fn corpus() -> Option<PathBuf> {
     let folder = named.unwrap_or(beside);
     let slow = std::env::var_os("VTEX_SLOW").is_some_and(|v| v == "1");
     (slow && folder.is_dir()).then_some(folder)
+}
+
+/// Fonts of the folder named by `VTEX_FONTS`, none without it.
+fn resources() -> Resources {
+    let mut fonts = usvg::fontdb::Database::new();
+    if let Some(folder) = std::env::var_os("VTEX_FONTS") {
+        fonts.load_fonts_dir(folder);
+    }
+    Resources {
+        fonts: fonts.into(),
+    }
 }
 
 fn svg_files(folder: &Path) -> Vec<PathBuf> {
@@ -48,13 +59,14 @@ fn real_files_look_as_resvg_paints_them() {
         .into_iter()
         .filter(|f| !f.starts_with(folder.join("hostile")))
         .collect();
+    let resources = resources();
     let mut rows: Vec<(f64, String)> = files
         .par_iter()
         .map(|file| {
             let name = file.strip_prefix(&folder).unwrap().display().to_string();
             let svg = std::fs::read(file).unwrap();
             let start = std::time::Instant::now();
-            match compare(&svg, &Resources::default(), SIZE) {
+            match compare(&svg, &resources, SIZE) {
                 Ok(c) => {
                     if c.psnr < 40.0 {
                         dump(&name.replace('/', "_"), &c.ours, &c.theirs);
@@ -97,6 +109,32 @@ fn real_files_look_as_resvg_paints_them() {
         share(30.0),
         rows.len()
     );
+}
+
+#[test]
+fn raster_mode_paints_the_tiger() {
+    let Some(folder) = corpus() else { return };
+    let svg = std::fs::read(folder.join("paper5/5_tiger__svgpan__tiger.svg")).unwrap();
+    let config = BakeConfig {
+        mode: Mode::Raster,
+        ..BakeConfig::default()
+    };
+    let drawing = draw(&svg, &config, &Resources::default(), &|_| {}).unwrap();
+    assert_eq!(drawing.items.len(), 1);
+    let start = std::time::Instant::now();
+    let shapes = draw(&svg, &BakeConfig::default(), &Resources::default(), &|_| {}).unwrap();
+    let draw_ms = start.elapsed().as_millis();
+    let from_shapes = raster::canvas_mips(&shapes.items, shapes.canvas_size, 512);
+    let mips_ms = start.elapsed().as_millis() - draw_ms;
+    if let Ok(dir) = std::env::var("VTEX_DUMP") {
+        let text = format!("draw {draw_ms} ms, mips {mips_ms} ms");
+        std::fs::write(Path::new(&dir).join("tiger.txt"), text).unwrap();
+    }
+    let from_raster = raster::canvas_mips(&drawing.items, drawing.canvas_size, 512);
+    let pairs = from_shapes.mips[0].iter().zip(&from_raster.mips[0]);
+    let sum: f64 = pairs.map(|(a, b)| f64::from(a.abs_diff(*b)).powi(2)).sum();
+    let rms = (sum / from_shapes.mips[0].len() as f64).sqrt();
+    assert!(rms < 2.5, "{rms} codes apart");
 }
 
 #[test]

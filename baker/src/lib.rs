@@ -103,7 +103,7 @@ fn draw(
         fill_color: config.fill_color,
         stroke_color: config.stroke_color,
     };
-    let plan = svg::plan(&tree, options, &warnings);
+    let plan = svg::plan(&tree, options, &warnings)?;
     let settings = PatchSettings {
         canvas_size: plan.canvas_size,
         mip0_size: config.mip0_size,

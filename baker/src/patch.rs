@@ -97,7 +97,7 @@ pub(crate) fn whole_canvas(
     let canvas = Rect::new(0.0, 0.0, settings.canvas_size[0], settings.canvas_size[1]);
     let density = settings
         .finest_density()
-        .min(settings.density_for_side(canvas));
+        .min(MAX_PATCH_SIDE / f64::from(settings.mip0_size));
     if density < settings.wanted_density() {
         warn_coarse(warnings);
     }

@@ -83,10 +83,7 @@ pub(crate) fn prepare(shape: &Shape, canvas_longer: f64) -> Prepared {
 fn clean(outline: &BezPath) -> BezPath {
     let mut cleaned = BezPath::new();
     for contour in contours(outline) {
-        let segments: Vec<PathSeg> = contour
-            .segments()
-            .filter_map(|segment| straighten(segment))
-            .collect();
+        let segments: Vec<PathSeg> = contour.segments().filter_map(straighten).collect();
         let (Some(first), Some(last)) = (segments.first(), segments.last()) else {
             continue;
         };

@@ -171,8 +171,9 @@ mod tests {
     fn spans_keep_the_area() {
         for (texels, target) in [(100, [3.3, 17.9]), (7, [-2.5, 900.25]), (64, [0.0, 64.0])] {
             let axis = Axis::new(texels, target, [-10.0, 1000.0]).unwrap();
-            let covered: f32 = axis.spans.iter().flat_map(|s| &s.weights).sum();
-            let length = (target[1] - target[0]) as f32;
+            let weights = axis.spans.iter().flat_map(|s| &s.weights);
+            let covered: f64 = weights.copied().map(f64::from).sum();
+            let length = target[1] - target[0];
             assert!((covered - length).abs() < 2.0, "{covered} for {length}");
             assert!(axis.touched().unwrap().1 < texels as usize);
         }

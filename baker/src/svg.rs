@@ -1,6 +1,7 @@
 //! SVG to a [`Plan`]: what is geometry already, and what resvg has to paint.
 
 mod cost;
+mod entities;
 mod fonts;
 mod images;
 mod path;

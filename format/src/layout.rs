@@ -94,8 +94,11 @@ pub(crate) fn align_up(offset: u64) -> Option<u64> {
     offset.checked_next_multiple_of(ALIGNMENT_BYTES)
 }
 
-/// Bytes of one MSDF tile.
-pub(crate) fn tile_bytes(texels_per_cell: u32) -> u64 {
+/// Channels of an MSDF texel that are stored; alpha is always 255.
+pub(crate) const TILE_PLANES: usize = 3;
+
+/// Texels of one MSDF tile.
+pub(crate) fn tile_texels(texels_per_cell: u32) -> u64 {
     let side = u64::from(texels_per_cell) + 1;
-    4 * side * side
+    side * side
 }

@@ -80,6 +80,7 @@ mod shader;
 mod shape;
 mod spec;
 mod tag;
+mod tile;
 mod write;
 
 pub use cell::{CELL_TAG_SHIFT, CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL};

@@ -4,7 +4,7 @@
 ///
 /// A section's memory is asked for in one piece once its length is known to be what grid, records
 /// and budgets allow; besides that reading holds a few bytes a table entry, and strings in memory
-/// take up to three times their stored length.
+/// take up to three times their stored length, tiles four thirds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// All sections together.

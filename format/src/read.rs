@@ -6,9 +6,9 @@ use bytemuck::Pod;
 use crate::directory::{entry_offset, read_directory, slice};
 use crate::image::ImageRecord;
 use crate::issue::{self, Issues};
-use crate::layout::{entry, tile_bytes};
+use crate::layout::{TILE_PLANES, entry, tile_texels};
 use crate::{Image, LayerRecord, Limits, Meta, Provenance, ReadError, SectionInfo, ShaderBlob};
-use crate::{Issue, SpecKey, Tag, VtexFile, check, codec, frame};
+use crate::{Issue, SpecKey, Tag, VtexFile, check, codec, frame, tile};
 
 impl VtexFile {
     /// Reads and checks a whole file: what this returns is safe to evaluate.
@@ -191,7 +191,7 @@ impl Loader<'_> {
     /// The tiles of all layers, from sections whose layer ranges follow each other.
     fn tiles(&mut self, meta: &Meta, layers: &[LayerRecord]) -> Option<Vec<u8>> {
         let parts = self.all(Tag::TILE);
-        let tile_bytes = tile_bytes(meta.grid.texels_per_cell);
+        let tile_bytes = TILE_PLANES as u64 * tile_texels(meta.grid.texels_per_cell);
         let count_bytes = |layers: &[LayerRecord]| {
             let tiles: u64 = layers.iter().map(|layer| u64::from(layer.tile_count)).sum();
             tile_bytes.saturating_mul(tiles)
@@ -216,21 +216,25 @@ impl Loader<'_> {
             self.issues.add(issue::TILE_PARTS, Tag::SECT, 0, message);
             return None;
         }
-        let total = parts.iter().map(|(_, section)| section.raw_bytes).sum();
-        self.join(&parts, total)
+        self.texels(&parts)
     }
 
-    /// Several sections behind each other in one piece of memory.
-    fn join(&mut self, parts: &[(usize, SectionInfo)], total_bytes: u64) -> Option<Vec<u8>> {
+    /// The texels of several tile sections in one piece of memory.
+    fn texels(&mut self, parts: &[(usize, SectionInfo)]) -> Option<Vec<u8>> {
         let Some(&(first, _)) = parts.first() else {
             return Some(Vec::new());
         };
-        let memory = frame::allocate(total_bytes);
+        // The lengths are known to be what the layers imply, so they divide.
+        let texel_bytes = |section: &SectionInfo| section.raw_bytes / TILE_PLANES as u64 * 4;
+        let total = parts.iter().map(|(_, section)| texel_bytes(section)).sum();
+        let memory = frame::allocate(total);
         let mut all: Vec<u8> = self.accept(first, memory)?;
         let mut rest = all.as_mut_slice();
         for (index, section) in parts {
-            let (raw, behind) = rest.split_at_mut(usize::try_from(section.raw_bytes).ok()?);
-            self.unpack(*index, raw)?;
+            let planes: Vec<u8> = self.load(*index)?;
+            let length = usize::try_from(texel_bytes(section)).ok()?;
+            let (texels, behind) = rest.split_at_mut(length);
+            tile::texels_from_planes(&planes, texels);
             rest = behind;
         }
         Some(all)

@@ -6,11 +6,13 @@ use crate::frame::{self, words_to_little_endian};
 use crate::header::{Header, put};
 use crate::image::ImageRecord;
 use crate::issue::{self, Issues};
-use crate::layout::{self, MAX_SECTIONS, entry, header, tile_bytes};
+use crate::layout::{self, MAX_SECTIONS, entry, header, tile_texels};
 use crate::read::level_order;
-use crate::{Codec, Issue, LayerRecord, SectionInfo, Tag, VtexFile, WriteError, check, codec};
+use crate::{
+    Codec, Issue, LayerRecord, SectionInfo, Tag, VtexFile, WriteError, check, codec, tile,
+};
 
-/// Layers are gathered until their tiles reach this many bytes: large enough to pack well, small
+/// Layers are gathered until their tiles reach this many bytes in memory: large enough to pack well, small
 /// enough to be a useful part.
 const TILE_PART_BYTES: u64 = 4 << 20;
 
@@ -104,7 +106,7 @@ impl VtexFile {
 
     /// Runs of whole layers; trailing layers without tiles join the last run.
     fn tile_parts(&self) -> Vec<Part<'_>> {
-        let tile_bytes = tile_bytes(self.meta.grid.texels_per_cell);
+        let tile_bytes = 4 * tile_texels(self.meta.grid.texels_per_cell);
         let bytes = |layer: &LayerRecord| tile_bytes * u64::from(layer.tile_count);
         let mut runs: Vec<(u32, u32, u64)> = Vec::new();
         for (index, layer) in (0_u32..).zip(&self.layers) {
@@ -118,11 +120,11 @@ impl VtexFile {
         }
         let mut rest = self.tiles.as_slice();
         let cut = runs.into_iter().map(|(first, count, total)| {
-            let (raw, behind) = rest.split_at(usize::try_from(total).unwrap_or(rest.len()));
+            let (texels, behind) = rest.split_at(usize::try_from(total).unwrap_or(rest.len()));
             rest = behind;
             Part {
                 layers: (first, count),
-                ..Part::whole(Tag::TILE, raw)
+                ..Part::whole(Tag::TILE, tile::planes_from_texels(texels))
             }
         });
         cut.collect()

@@ -1,1 +1,7 @@
-//! wip
+//! Support of the test suites: an adapter to run on, random textures, random numbers.
+//!
+//! Functions here panic when something is wrong: they run inside tests.
+
+pub mod fixture;
+pub mod gpu;
+pub mod random;

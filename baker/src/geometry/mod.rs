@@ -10,15 +10,6 @@ pub(crate) use flatten::{clip_line, flatten, flatten_segment};
 pub(crate) use overlap::{line_box_distance, line_line_distance};
 pub(crate) use winding::Region;
 
-/// `floor(x)` as an integer; saturates at the ends of `i32`.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "a float cast saturates and callers clamp to their grid"
-)]
-pub(crate) fn floor_i32(x: f64) -> i32 {
-    x.floor() as i32
-}
-
 /// `floor(x)` as an index; negative and NaN become 0.
 #[expect(
     clippy::cast_possible_truncation,

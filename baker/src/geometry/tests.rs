@@ -15,7 +15,9 @@ fn winding_by_angle(outline: &BezPath, p: Point) -> i32 {
             turn += a.cross(b).atan2(a.dot(b));
         }
     }
-    (turn / std::f64::consts::TAU).round() as i32
+    #[expect(clippy::cast_possible_truncation, reason = "a small whole number")]
+    let turns = (turn / std::f64::consts::TAU).round() as i32;
+    turns
 }
 
 #[test]

@@ -65,21 +65,37 @@ pub(crate) fn edges_of(outline: &BezPath) -> Vec<Edge> {
         outline.clone()
     };
     let mut edges = Vec::new();
-    for contour in split_contours(&turned) {
+    for (index, contour) in (0_u64..).zip(split_contours(&turned)) {
         let segments = collapse(&contour);
         // Two segments can enclose something only when one of them is curved.
         if segments.len() < 2 {
             continue;
         }
-        let contour = Contour {
-            segments: segments.iter().map(to_fdsm).collect(),
-        };
-        let colored = ColoredContour::edge_coloring_simple(contour, CORNER_SINE, 0);
-        for segment in colored.segments {
+        for segment in color_contour(&segments, index) {
             push_quads(segment, &mut edges);
         }
     }
     edges
+}
+
+/// Colours that share one channel with each other.
+const TWO_CHANNELS: [Color; 3] = [Color::CYAN, Color::MAGENTA, Color::YELLOW];
+
+/// fdsm's "simple" colouring, begun anew for each contour, so that the two contours of a thin ring
+/// are told apart; for the same reason a contour without corners is not white.
+fn color_contour(segments: &[PathSeg], index: u64) -> Vec<ColoredSegment> {
+    let contour = Contour {
+        segments: segments.iter().map(to_fdsm).collect(),
+    };
+    let colored = ColoredContour::edge_coloring_simple(contour, CORNER_SINE, index);
+    let mut segments = colored.segments;
+    if segments.iter().all(|segment| segment.color == Color::WHITE) {
+        let third = usize::try_from(index % 3).unwrap_or(0);
+        for segment in &mut segments {
+            segment.color = TWO_CHANNELS[third];
+        }
+    }
+    segments
 }
 
 fn split_contours(outline: &BezPath) -> Vec<Vec<PathSeg>> {
@@ -215,4 +231,15 @@ fn is_straight(q: &QuadBez) -> bool {
 
 fn to_kurbo(p: Point2<f64>) -> Point {
     Point::new(p.x, p.y)
+}
+
+/// The outline as fdsm alone would get it.
+#[cfg(test)]
+pub(crate) fn contours_for_fdsm(outline: &BezPath) -> Vec<Contour> {
+    let contours = split_contours(outline).into_iter();
+    contours
+        .map(|contour| Contour {
+            segments: contour.iter().map(to_fdsm).collect(),
+        })
+        .collect()
 }

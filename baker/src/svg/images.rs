@@ -77,3 +77,26 @@ fn nested(data: &[u8], options: &Options<'_>) -> Result<ImageKind, String> {
         .map(ImageKind::SVG)
         .map_err(|e| e.to_string())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn png_header(width: u32, height: u32) -> Vec<u8> {
+        let mut png = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR".to_vec();
+        png.extend(width.to_be_bytes());
+        png.extend(height.to_be_bytes());
+        png.extend([8, 6, 0, 0, 0, 0, 0, 0, 0]);
+        png
+    }
+
+    #[test]
+    fn what_a_header_claims_is_checked_before_decoding() {
+        let load = |data: Vec<u8>| load("image/png", Arc::new(data), &Options::default());
+        assert!(load(png_header(4000, 4000)).is_ok());
+        assert!(load(png_header(60_000, 60_000)).is_err_and(|e| e.contains("too many")));
+        assert!(load(png_header(0, 7)).is_err());
+        assert!(load(b"GIF89a\xff\xff\xff\xff".to_vec()).is_err());
+        assert!(load(b"nothing".to_vec()).is_err());
+    }
+}

@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use crate::svg::{fonts, images};
+use crate::svg::{entities, fonts, images};
 use crate::warning::Warnings;
 use crate::{BakeError, Resources};
 
@@ -39,6 +39,11 @@ pub(crate) fn parse(
         .map_err(|e| BakeError::Svg(format!("not UTF-8 text (byte {})", e.valid_up_to())))?;
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
         return Err(BakeError::Svg("the input is empty".to_owned()));
+    }
+    if entities::expanded_bytes(text) > MAX_SVG_BYTES {
+        return Err(BakeError::Limit(
+            "entities expand to too much text".to_owned(),
+        ));
     }
     let options = usvg::Options {
         dpi: 96.0,

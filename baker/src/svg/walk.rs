@@ -4,12 +4,22 @@ use kurbo::{Affine, BezPath, Cap, Join, Rect};
 use usvg::{BlendMode, Group, ImageKind, Node, Paint, PaintOrder};
 use vtex_format::WarningCode;
 
+use crate::BakeError;
 use crate::drawing::{FillRule, Shape, ShapeSource};
 use crate::stroke::{self, StrokeQuality, StrokeStyle};
 use crate::svg::path::{affine, bez_path, close_subpaths, transformed_bounds};
 use crate::svg::{Plan, Step, Subtree};
 use crate::warning::Warnings;
 
+/// Canvas sizes that a shape may reach beyond the canvas. usvg's coordinates are f32: further out
+/// they are sixteenths of a canvas apart. A rectangle may still mean a ground without end, but the
+/// arcs of a circle are noise there, and millions of them.
+const MAX_REACH: f64 = 1_048_576.0;
+/// Path elements of a shape that may reach further.
+const MAX_FAR_ELEMENTS: usize = 256;
+/// Path elements of all outlines together, strokes expanded; the stages that follow hold several
+/// copies of each.
+const MAX_OUTLINE_ELEMENTS: usize = 1 << 22;
 /// Shapes of a translucent group that are compared with each other for overlap.
 const MAX_FOLDED_SHAPES: usize = 64;
 
@@ -25,11 +35,14 @@ pub(crate) struct WalkOptions {
 }
 
 /// Sorts the tree into shapes and subtrees. What lies outside the canvas is left out.
+///
+/// # Errors
+/// [`BakeError::Limit`] when outlines have too many elements together.
 pub(crate) fn plan<'a>(
     tree: &'a usvg::Tree,
     options: WalkOptions,
     warnings: &Warnings,
-) -> Plan<'a> {
+) -> Result<Plan<'a>, BakeError> {
     let canvas_size = [tree.size().width(), tree.size().height()].map(f64::from);
     let mut walker = Walker {
         options,
@@ -40,6 +53,7 @@ pub(crate) fn plan<'a>(
             max_zoom: options.max_zoom,
         },
         steps: Vec::new(),
+        element_count: 0,
     };
     let place = Place {
         canvas_from_user: Affine::IDENTITY,
@@ -47,10 +61,15 @@ pub(crate) fn plan<'a>(
         element: "",
     };
     walker.children(tree.root(), place);
-    Plan {
+    if walker.element_count > MAX_OUTLINE_ELEMENTS {
+        return Err(BakeError::Limit(format!(
+            "outlines have more than {MAX_OUTLINE_ELEMENTS} path elements"
+        )));
+    }
+    Ok(Plan {
         canvas_size,
         steps: walker.steps,
-    }
+    })
 }
 
 struct Walker<'a, 'w> {
@@ -59,6 +78,8 @@ struct Walker<'a, 'w> {
     canvas: Rect,
     quality: StrokeQuality,
     steps: Vec<Step<'a>>,
+    /// Path elements of all shapes so far; past the limit nothing more is made.
+    element_count: usize,
 }
 
 /// What ancestors hand down.
@@ -82,6 +103,9 @@ impl<'a> Place<'a> {
 impl<'a> Walker<'a, '_> {
     fn children(&mut self, group: &'a Group, place: Place<'a>) {
         for node in group.children() {
+            if self.element_count > MAX_OUTLINE_ELEMENTS {
+                return;
+            }
             self.node(node, place);
         }
     }
@@ -222,6 +246,15 @@ impl<'a> Walker<'a, '_> {
         if !outline.is_finite() || !self.shows(bounds) {
             return;
         }
+        let reach = MAX_REACH * self.quality.canvas_longer_side;
+        let far = bounds.abs().width().max(bounds.abs().height()) > reach;
+        if far && outline.elements().len() > MAX_FAR_ELEMENTS {
+            let message = "a shape reaches too far beyond the canvas and is left out";
+            self.warnings
+                .push(WarningCode::PathFallback, "path", place.element, message);
+            return;
+        }
+        self.element_count += outline.elements().len();
         let element = place.element.to_owned();
         self.steps.push(Step::Shape(Shape {
             outline,

@@ -1,5 +1,11 @@
 //! Point lookups by the letter of docs/format.md sec. 3, and the painter they are held against.
 
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "lookups are f32 and their cells are found by floor"
+)]
+
 use std::io::Write as _;
 
 use kurbo::{Affine, Point};

@@ -2,7 +2,7 @@
 
 use crate::image::{ImageRecord, MAX_IMAGE_SIDE};
 use crate::issue::{self, Issues};
-use crate::layout::tile_bytes;
+use crate::layout::tile_texels;
 use crate::{Features, Image, Tag, VtexFile};
 
 /// The tiles are as many bytes as the layers say, and every texel's alpha is 255.
@@ -12,7 +12,7 @@ pub(super) fn tiles(file: &VtexFile, issues: &mut Issues) {
         .iter()
         .map(|layer| u64::from(layer.tile_count))
         .sum();
-    let expected = tile_bytes(file.meta.grid.texels_per_cell).saturating_mul(count);
+    let expected = (4 * tile_texels(file.meta.grid.texels_per_cell)).saturating_mul(count);
     if file.tiles.len() as u64 != expected {
         let message = format_args!(
             "{} bytes for {count} tiles, not {expected}",

@@ -120,7 +120,7 @@ const CONTENT_CASES: &[FileCase] = &[
     (6001, |s| s[TILE].parts[2] = 1),
     (6001, |s| {
         s[TILE].parts[3] = 1;
-        cut(&mut s[TILE], 36);
+        cut(&mut s[TILE], 27);
     }),
     (6002, |s| s[TILE].parts[3] = 1),
     (6001, |s| s[TILE].parts[3] = u32::MAX),

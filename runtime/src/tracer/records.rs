@@ -7,6 +7,11 @@ use crate::scene::MAX_LIGHTS;
 /// "No texture", "no light", "no triangle".
 pub(crate) const NONE: u32 = u32::MAX;
 
+/// [`MaterialRecord::surface`]: Lambert.
+pub(crate) const SURFACE_DIFFUSE: u32 = 0;
+/// [`MaterialRecord::surface`]: GGX over Lambert.
+pub(crate) const SURFACE_GLOSSY: u32 = 1;
+
 /// What intersection reads of a triangle: `edge1 = v0 - v1`, `edge2 = v2 - v0`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -110,6 +115,7 @@ mod tests {
     use naga::TypeInner;
 
     use super::*;
+    use crate::LightSampling;
 
     /// Name, size and the fields' names and offsets of a record.
     type Layout = (&'static str, usize, Vec<(&'static str, usize)>);
@@ -145,10 +151,33 @@ mod tests {
         }
     }
 
+    fn layout_wgsl() -> String {
+        vtex_shaders::link("trace/layout", &vtex_shaders::LinkContext::default()).unwrap()
+    }
+
+    #[test]
+    fn constants_are_those_of_the_shader() {
+        let wgsl = layout_wgsl();
+        for (name, value) in [
+            ("TRACE_MAX_LIGHTS", MAX_LIGHTS),
+            ("LIGHT_SAMPLING_MIS", LightSampling::Mis as usize),
+            (
+                "LIGHT_SAMPLING_SCATTER",
+                LightSampling::ScatterOnly as usize,
+            ),
+            ("SURFACE_DIFFUSE", SURFACE_DIFFUSE as usize),
+            ("SURFACE_GLOSSY", SURFACE_GLOSSY as usize),
+        ] {
+            let line = format!("const {name}: u32 = {value}u;");
+            assert!(wgsl.contains(&line), "no `{line}`");
+        }
+        assert!(wgsl.contains(&format!("const TRACE_NONE: u32 = {NONE:#x}u;")));
+        assert!(wgsl.contains(&format!("lights: array<LightRecord, {MAX_LIGHTS}>")));
+    }
+
     #[test]
     fn records_lie_as_the_shader_reads_them() {
-        let wgsl = vtex_shaders::link("trace/layout", &vtex_shaders::LinkContext::default());
-        let module = naga::front::wgsl::parse_str(&wgsl.unwrap()).unwrap();
+        let module = naga::front::wgsl::parse_str(&layout_wgsl()).unwrap();
         let mut structs = 0;
         for (_, ty) in module.types.iter() {
             let TypeInner::Struct { members, span } = &ty.inner else {

@@ -6,7 +6,8 @@ use wgpu::{Buffer, BufferUsages, Device, Queue};
 
 use super::TraceOptions;
 use super::records::{
-    AttributeRecord, FrameRecord, LightRecord, MaterialRecord, NONE, TriangleRecord,
+    AttributeRecord, FrameRecord, LightRecord, MaterialRecord, NONE, SURFACE_DIFFUSE,
+    SURFACE_GLOSSY, TriangleRecord,
 };
 use crate::gpu::filled_buffer;
 use crate::load::PackedTextures;
@@ -247,8 +248,8 @@ fn material_record(material: &Material, texture_words: &[u32]) -> MaterialRecord
         metallic,
         ggx_alpha: (roughness * roughness).max(MIN_GGX_ALPHA),
         surface: match material.surface {
-            Surface::Diffuse => 0,
-            Surface::Glossy { .. } => 1,
+            Surface::Diffuse => SURFACE_DIFFUSE,
+            Surface::Glossy { .. } => SURFACE_GLOSSY,
         },
         texture_word: material.texture.map_or(NONE, |index| texture_words[index]),
         light: NONE,

@@ -20,10 +20,17 @@ pub(super) fn address(sampler: &Sampler<'_>, uv: [f32; 2]) -> [f32; 2] {
     [axis(uv[0], modes[0]), axis(uv[1], modes[1])]
 }
 
+#[expect(
+    clippy::manual_range_contains,
+    reason = "what is no number is not outside"
+)]
+fn axis_outside(t: f32, mode: u32) -> bool {
+    mode == BORDER && (t < 0.0 || t > 1.0)
+}
+
 pub(super) fn outside(sampler: &Sampler<'_>, uv: [f32; 2]) -> bool {
     let modes = sampler.settings.address;
-    let axis = |i: usize| modes[i] == BORDER && (uv[i] < 0.0 || uv[i] > 1.0);
-    axis(0) || axis(1)
+    axis_outside(uv[0], modes[0]) || axis_outside(uv[1], modes[1])
 }
 
 /// Axes along which the filter of image 0 reaches round to the other side.

@@ -1,17 +1,13 @@
 //! Twin of `vtex/composite_front.wgsl` and `vtex/composite_translucent.wgsl`.
 
-use super::entry::entry;
+use super::entry::Entry;
 use super::over::{opaque, over, over_encoded};
 use super::{Lookup, Sampler, Value, color};
-use crate::layout::{entry as layout, filter};
+use crate::layout::{entry, filter};
 use vtex_format::MAX_ENTRIES_PER_CELL;
 
 fn is_last(head: u32) -> bool {
-    head & layout::LAST_BIT != 0
-}
-
-fn nth(first: u32, index: u32) -> u32 {
-    first.wrapping_add(index * layout::WORDS)
+    head & entry::LAST_BIT != 0
 }
 
 /// All paints opaque, or a mask: front to back until nothing behind can show.
@@ -19,8 +15,8 @@ pub(super) fn front<V: Value>(sampler: &Sampler<'_>, first: u32, lookup: &Lookup
     let mut value = V::ZERO;
     let mut through = 1.0;
     for i in 0..MAX_ENTRIES_PER_CELL {
-        let words = sampler.words(nth(first, i));
-        let shown = entry::<V>(sampler, words, lookup);
+        let words = sampler.words(first.wrapping_add(i * entry::WORDS));
+        let shown = Entry::<V>::new(sampler, words, lookup).shown();
         value = value.plus(shown.scaled(through));
         through *= 1.0 - shown.alpha();
         if through <= 0.0 || is_last(words[0]) {
@@ -30,65 +26,68 @@ pub(super) fn front<V: Value>(sampler: &Sampler<'_>, first: u32, lookup: &Lookup
     value
 }
 
-/// Front to back through the opaque entries before the first translucent one.
-pub(super) fn translucent(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) -> [f32; 4] {
-    let mut value = [0.0; 4];
-    let mut through = 1.0;
-    for i in 0..MAX_ENTRIES_PER_CELL {
-        let word = nth(first, i);
-        let words = sampler.words(word);
-        if !opaque(sampler, words[0]) {
-            return value.plus(behind(sampler, word, lookup).scaled(through));
+fn last(sampler: &Sampler<'_>, first: u32) -> u32 {
+    let mut word = first;
+    for _ in 1..MAX_ENTRIES_PER_CELL {
+        if is_last(sampler.word(word)) {
+            break;
         }
-        let shown: [f32; 4] = entry(sampler, words, lookup);
-        value = value.plus(shown.scaled(through));
-        through *= 1.0 - shown[3];
+        word = word.wrapping_add(entry::WORDS);
+    }
+    word
+}
+
+/// With translucent paints. The WGSL walks both ways in one loop to be compiled small; here the
+/// two directions are two functions.
+pub(super) fn translucent(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) -> [f32; 4] {
+    let ramp = sampler.settings.filter != filter::POINT;
+    let mut front = [0.0; 4];
+    let mut through = 1.0;
+    let mut color = [0.0; 4];
+    let mut hit_count = 0;
+    let mut word = first;
+    for _ in 0..MAX_ENTRIES_PER_CELL {
+        let words = sampler.words(word);
+        let opaque = opaque(sampler, words[0]);
+        if ramp && !opaque {
+            return front.plus(behind(sampler, word, lookup).scaled(through));
+        }
+        let entry = Entry::<[f32; 4]>::new(sampler, words, lookup);
+        let shown = entry.shown();
+        if opaque && hit_count == 0 {
+            front = front.plus(shown.scaled(through));
+            through *= 1.0 - shown[3];
+        } else if shown[3] > 0.0 {
+            front = shown;
+            hit_count += 1;
+            color = color.plus(over_encoded(sampler, &entry).scaled(1.0 - color[3]));
+            through = 1.0 - color[3];
+        }
         if through <= 0.0 || is_last(words[0]) {
             break;
         }
+        word = word.wrapping_add(entry::WORDS);
     }
-    value
-}
-
-fn behind(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) -> [f32; 4] {
-    if sampler.settings.filter == filter::POINT {
-        point(sampler, first, lookup)
+    if hit_count > 1 {
+        color::decode_premultiplied(color)
     } else {
-        ramp(sampler, first, lookup)
+        front
     }
-}
-
-/// Coverage is 0 or 1: front to back on sRGB-encoded values, until an opaque entry is hit.
-fn point(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) -> [f32; 4] {
-    let mut value = [0.0; 4];
-    let mut hit_count = 0;
-    let mut hit = [0; 2];
-    for i in 0..MAX_ENTRIES_PER_CELL {
-        let words = sampler.words(nth(first, i));
-        let shown = over_encoded(sampler, words, lookup);
-        if shown[3] > 0.0 {
-            value = value.plus(shown.scaled(1.0 - value[3]));
-            hit_count += 1;
-            hit = words;
-        }
-        if shown[3] >= 1.0 || is_last(words[0]) {
-            break;
-        }
-    }
-    if hit_count == 1 {
-        return entry(sampler, hit, lookup);
-    }
-    color::decode_premultiplied(value)
 }
 
 /// Back to front: what a translucent paint makes of the colours behind it needs them first.
-fn ramp(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) -> [f32; 4] {
-    let mut last = 0;
-    while last + 1 < MAX_ENTRIES_PER_CELL && !is_last(sampler.word(nth(first, last))) {
-        last += 1;
+fn behind(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) -> [f32; 4] {
+    let mut color = [0.0; 4];
+    let mut word = last(sampler, first);
+    for _ in 0..MAX_ENTRIES_PER_CELL {
+        let entry = Entry::new(sampler, sampler.words(word), lookup);
+        if entry.coverage() > 0.0 {
+            color = over(sampler, &entry, color);
+        }
+        if word == first {
+            break;
+        }
+        word = word.wrapping_sub(entry::WORDS);
     }
-    let entries = (0..=last).rev();
-    entries.fold([0.0; 4], |behind, i| {
-        over(sampler, sampler.words(nth(first, i)), lookup, behind)
-    })
+    color
 }

@@ -14,7 +14,7 @@ pub(super) fn coverage(
     }
     let distance = msdf::distance(sampler, tile, lookup.q);
     let inner = msdf::coverage(sampler, distance, lookup.width_cells);
-    if sampler.settings.outline_head.is_none() {
+    if !sampler.settings.outline {
         return (inner, 0.0);
     }
     let grown = distance + sampler.settings.outline_width;

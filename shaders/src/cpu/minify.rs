@@ -11,21 +11,19 @@ use vtex_format::Features;
 /// Cells up to half a texel of mip 0, the raster chain from one texel on, a fade between.
 pub(super) fn minify<V: Value>(sampler: &Sampler<'_>, lookup: &Lookup) -> V {
     let s = &sampler.settings;
-    if !s.has(Features::MIPS) {
+    if !s.has(Features::MIPS) || lookup.width_cells <= 0.0 {
         return cells(sampler, lookup);
     }
     let width = to_f32(sampler.word(s.images.wrapping_add(image::SIZE)));
-    let texels = lookup.width_cells * width / s.scale[0];
-    if texels <= 0.5 {
-        return cells(sampler, lookup);
-    }
-    let lod = texels.log2();
+    let lod = (lookup.width_cells * width / s.scale[0]).max(0.5).log2();
     let fade = clamp(lod + 1.0, 0.0, 1.0);
-    let image: V = trilinear(sampler, s.images, lod, lookup.uv, wraps(sampler));
-    if fade >= 1.0 {
-        return image;
+    let mut value = V::ZERO;
+    if fade < 1.0 {
+        value = cells::<V>(sampler, lookup).scaled(1.0 - fade);
     }
-    cells::<V>(sampler, lookup)
-        .scaled(1.0 - fade)
-        .plus(image.scaled(fade))
+    if fade > 0.0 {
+        let chain: V = trilinear(sampler, s.images, lod, lookup.uv, wraps(sampler));
+        value = value.plus(chain.scaled(fade));
+    }
+    value
 }

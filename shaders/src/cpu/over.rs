@@ -1,55 +1,47 @@
 //! Twin of `vtex/over_paint.wgsl`, `vtex/over_shape.wgsl` and `vtex/over_outline.wgsl`.
 
-use super::coverage::coverage;
-use super::source::{encoded, source};
-use super::{Lookup, Sampler, Value, color};
+use super::entry::Entry;
+use super::source::encoded;
+use super::{Sampler, Value, color};
 use crate::layout::entry;
 
-/// decode(paint over encode(behind)); both sides linear light, premultiplied.
-fn paint(sampler: &Sampler<'_>, head: u32, lookup: &Lookup, behind: [f32; 4]) -> [f32; 4] {
+/// decode(paint over encode(behind)); `value` is the paint's colour.
+fn paint(sampler: &Sampler<'_>, head: u32, value: [f32; 4], behind: [f32; 4]) -> [f32; 4] {
     if behind[3] <= 0.0 || head & entry::OPAQUE_BIT != 0 {
-        return source(sampler, head, lookup);
+        return value;
     }
-    let front = encoded(sampler, head, lookup);
-    if front[3] <= 0.0 {
+    if value[3] <= 0.0 {
         return behind;
     }
+    let front = encoded(sampler, head, value);
     let back = color::encode_premultiplied(behind);
     color::decode_premultiplied(front.plus(back.scaled(1.0 - front[3])))
 }
 
-/// Whether `entry` says all there is to know of the entry's colour and its outline's.
+/// Whether what lies behind shows in proportion to what the entry and its outline leave uncovered.
 pub(super) fn opaque(sampler: &Sampler<'_>, head: u32) -> bool {
-    let outline = sampler.settings.outline_head.unwrap_or(entry::OPAQUE_BIT);
-    head & outline & entry::OPAQUE_BIT != 0
+    head & sampler.settings.outline_head & entry::OPAQUE_BIT != 0
 }
 
-/// Point mode: sRGB-encoded, premultiplied, 0 where neither shape nor outline covers.
-pub(super) fn over_encoded(sampler: &Sampler<'_>, entry: [u32; 2], lookup: &Lookup) -> [f32; 4] {
-    let (inner, ring) = coverage(sampler, entry, lookup);
-    match sampler.settings.outline_head {
-        _ if inner > 0.0 => encoded(sampler, entry[0], lookup),
-        Some(head) if ring > 0.0 => encoded(sampler, head, lookup),
-        _ => [0.0; 4],
+/// Of an entry that covers, or its outline: sRGB-encoded, premultiplied.
+pub(super) fn over_encoded(sampler: &Sampler<'_>, entry: &Entry<[f32; 4]>) -> [f32; 4] {
+    if entry.coverage.0 > 0.0 {
+        return encoded(sampler, entry.head, entry.value);
     }
+    encoded(sampler, sampler.settings.outline_head, entry.ring)
 }
 
-pub(super) fn over(
-    sampler: &Sampler<'_>,
-    entry: [u32; 2],
-    lookup: &Lookup,
-    behind: [f32; 4],
-) -> [f32; 4] {
-    let (inner, ring) = coverage(sampler, entry, lookup);
-    if inner + ring <= 0.0 {
-        return behind;
-    }
+/// Shape and ring cover different parts of the footprint: both lie over `behind`.
+pub(super) fn over(sampler: &Sampler<'_>, entry: &Entry<[f32; 4]>, behind: [f32; 4]) -> [f32; 4] {
+    let (inner, ring) = entry.coverage;
     let mut value = behind.scaled(1.0 - inner - ring);
     if inner > 0.0 {
-        value = value.plus(paint(sampler, entry[0], lookup, behind).scaled(inner));
+        let shown = paint(sampler, entry.head, entry.value, behind);
+        value = value.plus(shown.scaled(inner));
     }
-    if let (true, Some(head)) = (ring > 0.0, sampler.settings.outline_head) {
-        value = value.plus(paint(sampler, head, lookup, behind).scaled(ring));
+    if ring > 0.0 {
+        let shown = paint(sampler, sampler.settings.outline_head, entry.ring, behind);
+        value = value.plus(shown.scaled(ring));
     }
     value
 }

@@ -17,8 +17,11 @@ pub(super) struct Settings {
     pub(super) distance_range: f32,
     pub(super) smoothing: f32,
     pub(super) outline_width: f32,
-    /// Twin of `vtex_coverage_outline_head`; `None` without the feature.
-    pub(super) outline_head: Option<u32>,
+    /// Whether eq. 2's outline is on.
+    pub(super) outline: bool,
+    pub(super) outline_paint: u32,
+    /// Twin of `vtex_over_outline_head`; without outline one that hides nothing of `head`.
+    pub(super) outline_head: u32,
     pub(super) cells: u32,
     pub(super) entries: u32,
     pub(super) paints: u32,
@@ -44,7 +47,9 @@ impl Settings {
             distance_range: float(header::DISTANCE_RANGE),
             smoothing: float(header::SMOOTHING),
             outline_width: float(header::OUTLINE_WIDTH),
-            outline_head: None,
+            outline: false,
+            outline_paint: word(header::OUTLINE_PAINT),
+            outline_head: entry::OPAQUE_BIT,
             cells: word(header::CELLS),
             entries: word(header::ENTRIES),
             paints: word(header::PAINTS),
@@ -53,13 +58,14 @@ impl Settings {
             features: word(header::FEATURES),
         };
         if settings.has(Features::OUTLINE) {
-            let index = word(header::OUTLINE_PAINT);
+            let index = settings.outline_paint;
             let first = index
                 .wrapping_mul(paint::WORDS)
                 .wrapping_add(settings.paints);
             let alpha = float(first.wrapping_add(paint::LINEAR + 3));
             let opaque = if alpha >= 1.0 { entry::OPAQUE_BIT } else { 0 };
-            settings.outline_head = Some(index | opaque);
+            settings.outline = true;
+            settings.outline_head = index | opaque;
         }
         settings
     }

@@ -12,13 +12,12 @@ pub(super) fn source<V: Value>(sampler: &Sampler<'_>, head: u32, lookup: &Lookup
     V::solid(sampler, index)
 }
 
-/// sRGB-encoded, premultiplied.
-pub(super) fn encoded(sampler: &Sampler<'_>, head: u32, lookup: &Lookup) -> [f32; 4] {
-    let index = head & entry::INDEX_MASK;
+/// sRGB-encoded, premultiplied. `value` is the same colour in linear light.
+pub(super) fn encoded(sampler: &Sampler<'_>, head: u32, value: [f32; 4]) -> [f32; 4] {
     if head >> entry::KIND_SHIFT == entry::IMAGE {
-        return color::encode_premultiplied(image::entry(sampler, index, lookup));
+        return color::encode_premultiplied(value);
     }
-    let first = paint_first(sampler, index);
+    let first = paint_first(sampler, head & entry::INDEX_MASK);
     let [r, g, b, a] = sampler.word_float4(first.wrapping_add(paint::ENCODED));
     [r * a, g * a, b * a, a]
 }

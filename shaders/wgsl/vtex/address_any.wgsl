@@ -22,9 +22,14 @@ fn vtex_address(vt: u32, uv: vec2f) -> vec2f {
     return vec2f(vtex_address_axis(uv.x, modes.x), vtex_address_axis(uv.y, modes.y));
 }
 
+fn vtex_address_axis_outside(t: f32, mode: u32) -> bool {
+    return mode == VTEX_ADDRESS_BORDER && (t < 0.0 || t > 1.0);
+}
+
+// By axis: naga does not read its own SPIR-V back where `&` and `|` join vectors of bool.
 fn vtex_address_outside(vt: u32, uv: vec2f) -> bool {
-    let border = vtex_settings_address(vt) == vec2u(VTEX_ADDRESS_BORDER);
-    return any(border & ((uv < vec2f(0.0)) | (uv > vec2f(1.0))));
+    let modes = vtex_settings_address(vt);
+    return vtex_address_axis_outside(uv.x, modes.x) || vtex_address_axis_outside(uv.y, modes.y);
 }
 
 // Axes along which the filter of image 0 reaches round to the other side.

@@ -16,9 +16,6 @@ fn vtex_coverage_outline(vt: u32, entry: vec2u, lookup: VtexLookup) -> vec2f {
     return vec2f(inner, max(outer - inner, 0.0));
 }
 
-// The ring as the first word of an entry that fills its cell.
-fn vtex_coverage_outline_head(vt: u32) -> u32 {
-    let paint = vtex_word(vt, VTEX_HEADER_OUTLINE_PAINT);
-    let alpha = vtex_word(vt, VTEX_HEADER_PAINTS) + paint * VTEX_PAINT_WORDS + 3u;
-    return select(paint, paint | VTEX_ENTRY_OPAQUE_BIT, vtex_word_float(vt, alpha) >= 1.0);
+fn vtex_coverage_outline_paint(vt: u32) -> u32 {
+    return vtex_word(vt, VTEX_HEADER_OUTLINE_PAINT);
 }

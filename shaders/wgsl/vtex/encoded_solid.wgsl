@@ -1,10 +1,9 @@
 //!use core/layout
 //!use vtex/words
-//!use vtex/footprint
 // Colour of an entry as compositing wants it where all are solid paints.
 
-// sRGB-encoded, premultiplied.
-fn vtex_encoded(vt: u32, head: u32, lookup: VtexLookup) -> vec4f {
+// sRGB-encoded, premultiplied. `value` is the same colour in linear light.
+fn vtex_encoded(vt: u32, head: u32, value: vec4f) -> vec4f {
     let index = head & VTEX_ENTRY_INDEX_MASK;
     let first = vtex_word(vt, VTEX_HEADER_PAINTS) + index * VTEX_PAINT_WORDS;
     let straight = vtex_word_float4(vt, first + VTEX_PAINT_ENCODED);

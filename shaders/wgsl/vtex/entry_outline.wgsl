@@ -1,16 +1,35 @@
 //!use vtex/footprint
 //!use vtex/coverage
 //!use vtex/source
-// What an entry and its outline show where nothing lies before or behind them.
+// One entry of a list and its outline at a lookup.
 
-fn vtex_entry(vt: u32, entry: vec2u, lookup: VtexLookup) -> VtexValue {
-    let c = vtex_coverage_outline(vt, entry, lookup);
+struct VtexEntry {
+    head: u32,
+    // Of the shape and of the ring.
+    coverage: vec2f,
+    // Their colours, 0 where they do not cover.
+    value: VtexValue,
+    ring: VtexValue,
+}
+
+fn vtex_entry(vt: u32, words: vec2u, lookup: VtexLookup) -> VtexEntry {
+    let c = vtex_coverage_outline(vt, words, lookup);
     var value = VtexValue(0.0);
     if c.x > 0.0 {
-        value = c.x * vtex_source(vt, entry.x, lookup);
+        value = vtex_source(vt, words.x, lookup);
     }
+    var ring = VtexValue(0.0);
     if c.y > 0.0 {
-        value += c.y * vtex_source(vt, vtex_coverage_outline_head(vt), lookup);
+        ring = vtex_paint_solid(vt, vtex_coverage_outline_paint(vt));
     }
-    return value;
+    return VtexEntry(words.x, c, value, ring);
+}
+
+fn vtex_entry_coverage(entry: VtexEntry) -> f32 {
+    return entry.coverage.x + entry.coverage.y;
+}
+
+// What shows of them where nothing lies before or behind them.
+fn vtex_entry_shown(entry: VtexEntry) -> VtexValue {
+    return entry.coverage.x * entry.value + entry.coverage.y * entry.ring;
 }

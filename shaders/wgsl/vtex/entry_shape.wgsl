@@ -1,12 +1,29 @@
 //!use vtex/footprint
 //!use vtex/coverage
 //!use vtex/source
-// What an entry shows where nothing lies before or behind it: coverage times colour.
+// One entry of a list at a lookup.
 
-fn vtex_entry(vt: u32, entry: vec2u, lookup: VtexLookup) -> VtexValue {
-    let c = vtex_coverage(vt, entry, lookup);
-    if c <= 0.0 {
-        return VtexValue(0.0);
+struct VtexEntry {
+    head: u32,
+    coverage: f32,
+    // Its colour, 0 where it does not cover.
+    value: VtexValue,
+}
+
+fn vtex_entry(vt: u32, words: vec2u, lookup: VtexLookup) -> VtexEntry {
+    let c = vtex_coverage(vt, words, lookup);
+    var value = VtexValue(0.0);
+    if c > 0.0 {
+        value = vtex_source(vt, words.x, lookup);
     }
-    return c * vtex_source(vt, entry.x, lookup);
+    return VtexEntry(words.x, c, value);
+}
+
+fn vtex_entry_coverage(entry: VtexEntry) -> f32 {
+    return entry.coverage;
+}
+
+// What shows of it where nothing lies before or behind it.
+fn vtex_entry_shown(entry: VtexEntry) -> VtexValue {
+    return entry.coverage * entry.value;
 }

@@ -1,34 +1,35 @@
 //!use core/layout
-//!use vtex/footprint
-//!use vtex/coverage
+//!use vtex/words
+//!use vtex/entry
 //!use vtex/over_paint
 // An entry and its outline composited over what lies behind them.
 
-// Whether `vtex_entry` says all there is to know of the entry's colour and its outline's.
+// The outline's paint as the first word of an entry that fills its cell.
+fn vtex_over_outline_head(vt: u32) -> u32 {
+    let paint = vtex_coverage_outline_paint(vt);
+    let alpha = vtex_word(vt, VTEX_HEADER_PAINTS) + paint * VTEX_PAINT_WORDS + 3u;
+    return select(paint, paint | VTEX_ENTRY_OPAQUE_BIT, vtex_word_float(vt, alpha) >= 1.0);
+}
+
+// Whether what lies behind the entry and its outline shows in proportion to what they leave
+// uncovered.
 fn vtex_over_opaque(vt: u32, head: u32) -> bool {
-    return (head & vtex_coverage_outline_head(vt) & VTEX_ENTRY_OPAQUE_BIT) != 0u;
+    return (head & vtex_over_outline_head(vt) & VTEX_ENTRY_OPAQUE_BIT) != 0u;
 }
 
-// Point mode: sRGB-encoded, premultiplied, 0 where neither covers.
-fn vtex_over_encoded(vt: u32, entry: vec2u, lookup: VtexLookup) -> vec4f {
-    let c = vtex_coverage_outline(vt, entry, lookup);
-    if c.x > 0.0 {
-        return vtex_encoded(vt, entry.x, lookup);
+// Of an entry that covers, or its outline: sRGB-encoded, premultiplied.
+fn vtex_over_encoded(vt: u32, entry: VtexEntry) -> vec4f {
+    if entry.coverage.x > 0.0 {
+        return vtex_encoded(vt, entry.head, entry.value);
     }
-    if c.y > 0.0 {
-        return vtex_encoded(vt, vtex_coverage_outline_head(vt), lookup);
-    }
-    return vec4f(0.0);
+    return vtex_encoded(vt, vtex_over_outline_head(vt), entry.ring);
 }
 
-fn vtex_over(vt: u32, entry: vec2u, lookup: VtexLookup, behind: vec4f) -> vec4f {
-    let c = vtex_coverage_outline(vt, entry, lookup);
-    var color = (1.0 - c.x - c.y) * behind;
-    if c.x > 0.0 {
-        color += c.x * vtex_over_paint(vt, entry.x, lookup, behind);
-    }
-    if c.y > 0.0 {
-        color += c.y * vtex_over_paint(vt, vtex_coverage_outline_head(vt), lookup, behind);
-    }
-    return color;
+// Shape and ring cover different parts of the footprint: both lie over `behind`.
+fn vtex_over(vt: u32, entry: VtexEntry, behind: vec4f) -> vec4f {
+    let c = entry.coverage;
+    let ring_head = vtex_over_outline_head(vt);
+    return (1.0 - c.x - c.y) * behind
+        + c.x * vtex_over_paint(vt, entry.head, entry.value, behind)
+        + c.y * vtex_over_paint(vt, ring_head, entry.ring, behind);
 }

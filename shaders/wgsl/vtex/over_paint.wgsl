@@ -1,20 +1,19 @@
 //!use core/layout
 //!use core/color
-//!use vtex/footprint
-//!use vtex/source
 //!use vtex/encoded
 // Source-over on sRGB-encoded values, as SVG renderers composite.
 
-// decode(paint over encode(behind)); both sides linear light, premultiplied.
-fn vtex_over_paint(vt: u32, head: u32, lookup: VtexLookup, behind: vec4f) -> vec4f {
+// decode(paint over encode(behind)). `value` is the paint's colour; it and `behind` are linear
+// light, premultiplied.
+fn vtex_over_paint(vt: u32, head: u32, value: vec4f, behind: vec4f) -> vec4f {
     // Where one side alone shows, the transfer functions cancel.
     if behind.a <= 0.0 || (head & VTEX_ENTRY_OPAQUE_BIT) != 0u {
-        return vtex_source(vt, head, lookup);
+        return value;
     }
-    let front = vtex_encoded(vt, head, lookup);
-    if front.a <= 0.0 {
+    if value.a <= 0.0 {
         return behind;
     }
+    let front = vtex_encoded(vt, head, value);
     let back = vtex_color_encode_premultiplied(behind);
     return vtex_color_decode_premultiplied(front + (1.0 - front.a) * back);
 }

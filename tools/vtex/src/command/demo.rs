@@ -27,9 +27,9 @@ const ZOOMS: [f64; 4] = [1.0, 8.0, 32.0, 256.0];
 const SPP: u32 = 16;
 /// The scene's film.
 const SCENE: Settings = Settings {
-    size_px: [960, 640],
-    spp: 128,
-    bounces: 6,
+    size_px: [720, 480],
+    spp: 32,
+    bounces: 5,
     seed: 0,
     kind: SceneKind::Showroom,
 };

@@ -1,0 +1,245 @@
+//! Random textures: every feature a packed texture can have, without a baker.
+
+use vtex_format::{
+    AddressMode, CellWord, Entry, EntryKind, Features, Grid, Image, Meta, Outline, PaintRecord,
+    SHADER_ABI, SamplerSettings, ShaderBlob, SpecKey, VtexFile,
+};
+
+use crate::random::Random;
+
+const ADDRESS_MODES: [AddressMode; 4] = [
+    AddressMode::Clamp,
+    AddressMode::Repeat,
+    AddressMode::Mirror,
+    AddressMode::Border,
+];
+const DISTANCE_RANGE_TEXELS: f32 = 4.0;
+const PAINTS: u32 = 12;
+const TILES: u32 = 40;
+
+/// A texture made of what `features` (bits of [`Features`]) names, else random from `seed`.
+///
+/// Neighbouring cells need not join: only the evaluators read it, no eye.
+///
+/// # Panics
+/// Never: what it encodes is small.
+pub fn random_texture(seed: u64, features: u32) -> VtexFile {
+    let mut random = Random::new(seed);
+    let r = &mut random;
+    let has = |feature| features & feature != 0;
+    let grid = random_grid(r);
+    let mut file = VtexFile {
+        meta: Meta {
+            canvas_size: grid.cell_from_uv_scale,
+            grid,
+            distance_range_texels: DISTANCE_RANGE_TEXELS,
+            max_zoom: 1.0,
+            sampler: random_settings(r, features),
+        },
+        spec: SpecKey {
+            abi: SHADER_ABI,
+            features: 0,
+            address_u: 0,
+            address_v: 0,
+            texels_per_cell: 0,
+            max_entries: 0,
+            reserved: [0; 2],
+        },
+        shader: ShaderBlob {
+            abi: SHADER_ABI,
+            wgsl_fragment: String::new(),
+            batch_spirv: Vec::new(),
+        },
+        paints: (0..PAINTS)
+            .map(|_| random_paint(r, has(Features::TRANSLUCENT)))
+            .collect(),
+        shapes: Vec::new(),
+        layers: Vec::new(),
+        cells: Vec::new(),
+        entries: Vec::new(),
+        tiles: Vec::new(),
+        images: Vec::new(),
+        provenance: None,
+    };
+    if has(Features::MIPS) {
+        file.images
+            .push(random_image(r, [0.0, 0.0, 1.0, 1.0], [61, 33]));
+    }
+    if has(Features::IMAGES) {
+        file.images
+            .push(random_image(r, [0.1, 0.2, 0.75, 0.9], [17, 30]));
+        file.images
+            .push(random_image(r, [0.4, -0.3, 1.4, 0.6], [64, 64]));
+    }
+    if has(Features::MSDF) {
+        let side = file.meta.grid.texels_per_cell + 1;
+        file.tiles = (0..TILES).flat_map(|_| random_tile(r, side)).collect();
+    }
+    let [columns, rows] = file.meta.grid.size_cells;
+    for _ in 0..columns * rows {
+        let cell = random_cell(r, &mut file, features);
+        file.cells.push(cell.encode().expect("small indices"));
+    }
+    file.spec = vtex_shaders::spec_key(&file);
+    file
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a handful of cells"
+)]
+fn random_grid(r: &mut Random) -> Grid {
+    let scale = [r.between(5.0, 20.0), r.between(5.0, 20.0)];
+    let offset = [r.unit(), r.unit()];
+    Grid {
+        size_cells: [0, 1].map(|i| (scale[i] + offset[i]).ceil() as u32),
+        cell_from_uv_scale: scale,
+        cell_from_uv_offset: offset,
+        texels_per_cell: [1, 4, 8, 11][r.below(4) as usize],
+    }
+}
+
+fn random_settings(r: &mut Random, features: u32) -> SamplerSettings {
+    let has = |feature| features & feature != 0;
+    let mut settings = SamplerSettings {
+        address: [(); 2].map(|()| ADDRESS_MODES[r.below(4) as usize]),
+        smoothing: r.between(0.02, 0.3),
+        mask: has(Features::MASK),
+        outline: has(Features::OUTLINE).then(|| Outline {
+            width_texels: r.between(0.2, 1.2),
+            paint: r.below(PAINTS),
+        }),
+        ..SamplerSettings::default()
+    };
+    if has(Features::TEXTURE_MATRIX) {
+        settings.texture_matrix = [(); 6].map(|()| r.between(-1.5, 1.5));
+    }
+    settings
+}
+
+fn random_paint(r: &mut Random, translucent: bool) -> PaintRecord {
+    let alpha = if translucent && r.below(2) == 0 {
+        r.between(0.05, 0.95)
+    } else {
+        1.0
+    };
+    PaintRecord::solid([r.unit(), r.unit(), r.unit(), alpha])
+}
+
+fn random_byte(r: &mut Random) -> u8 {
+    r.bits().to_le_bytes()[0]
+}
+
+/// Rounded to a byte; `value` in \[0, 1\] after clamping.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped"
+)]
+fn byte(value: f32) -> u8 {
+    (value.clamp(0.0, 1.0) * 255.0).round() as u8
+}
+
+/// A tile of three random edges, one a channel, as an MSDF has them.
+#[expect(clippy::cast_precision_loss, reason = "a handful of texels")]
+fn random_tile(r: &mut Random, side: u32) -> Vec<u8> {
+    let edges = [(); 3].map(|()| {
+        let angle = r.between(0.0, std::f32::consts::TAU);
+        let middle = side as f32 * 0.5;
+        let reach = r.between(-middle, middle);
+        (
+            angle.cos(),
+            angle.sin(),
+            middle * (angle.cos() + angle.sin()) + reach,
+        )
+    });
+    let mut texels = Vec::new();
+    for y in 0..side {
+        for x in 0..side {
+            for (nx, ny, at) in edges {
+                let distance = nx * x as f32 + ny * y as f32 - at;
+                texels.push(byte(distance / DISTANCE_RANGE_TEXELS + 0.5));
+            }
+            texels.push(255);
+        }
+    }
+    texels
+}
+
+/// Premultiplied noise with a full chain of its own noise: levels need not be averages here.
+fn random_image(r: &mut Random, rect_uv: [f32; 4], size: [u32; 2]) -> Image {
+    let mips = (0..Image::level_count(size)).map(|level| {
+        let [width, height] = Image::level_size(size, level);
+        let texel = |_| {
+            let alpha = random_byte(r);
+            let mut color = || random_byte(r).min(alpha);
+            [color(), color(), color(), alpha]
+        };
+        (0..width * height).flat_map(texel).collect()
+    });
+    let mips = mips.collect();
+    Image {
+        rect_uv,
+        size,
+        mips,
+    }
+}
+
+fn random_cell(r: &mut Random, file: &mut VtexFile, features: u32) -> CellWord {
+    match r.below(6) {
+        0 => return CellWord::Empty,
+        1 => {
+            return CellWord::Solid {
+                paint: r.below(PAINTS),
+            };
+        }
+        _ if features & Features::LISTS == 0 => return CellWord::Empty,
+        _ => {}
+    }
+    let offset_words = u32::try_from(file.entries.len()).expect("a small file");
+    // Some lists are long: they test the loops' bounds.
+    let length = if r.below(100) == 0 {
+        60
+    } else {
+        1 + r.below(7)
+    };
+    for i in 1..=length {
+        let entry = random_entry(r, file, features, i == length);
+        file.entries.extend(entry.encode().expect("small indices"));
+    }
+    CellWord::List { offset_words }
+}
+
+fn random_entry(r: &mut Random, file: &VtexFile, features: u32, last: bool) -> Entry {
+    let has = |feature| features & feature != 0;
+    let kinds = [
+        (EntryKind::Full, !has(Features::MSDF) || last),
+        (EntryKind::Image, has(Features::IMAGES)),
+        (EntryKind::Msdf, has(Features::MSDF)),
+        (EntryKind::Msdf, has(Features::MSDF)),
+    ];
+    let possible: Vec<EntryKind> = kinds
+        .iter()
+        .filter(|(_, possible)| *possible)
+        .map(|(kind, _)| *kind)
+        .collect();
+    let kind = possible[r.below(u32::try_from(possible.len()).expect("four")) as usize];
+    let patches = u32::try_from(file.images.len()).expect("three");
+    let first_patch = u32::from(has(Features::MIPS));
+    let index = match kind {
+        EntryKind::Image => first_patch + r.below(patches - first_patch),
+        _ => r.below(PAINTS),
+    };
+    Entry {
+        kind,
+        last,
+        opaque: kind != EntryKind::Image && file.paints[index as usize].is_opaque(),
+        index,
+        data: if kind == EntryKind::Msdf {
+            r.below(TILES)
+        } else {
+            0
+        },
+    }
+}

@@ -1,0 +1,91 @@
+//! Constants and records that cross from Rust into WGSL, compared through naga in every linked
+//! variant: names, values, offsets, spans.
+
+use std::collections::BTreeMap;
+
+use naga::{Expression, Literal, Module, TypeInner};
+use vtex_format::{Features, SHADER_ABI, SpecKey};
+use vtex_shaders::layout::{BATCH_QUERY, CONSTANTS, RecordLayout};
+use vtex_shaders::{BindingSlot, batch_kernel, scene_evaluator};
+
+fn key(features: u32) -> SpecKey {
+    SpecKey {
+        abi: SHADER_ABI,
+        features,
+        address_u: 1,
+        address_v: 2,
+        texels_per_cell: 8,
+        max_entries: 5,
+        reserved: [0; 2],
+    }
+}
+
+/// Named `u32` constants of a module that are not of its key.
+fn constants(module: &Module) -> BTreeMap<&str, u32> {
+    let named = module.constants.iter().filter_map(|(_, constant)| {
+        let value = &module.global_expressions[constant.init];
+        match (constant.name.as_deref()?, value) {
+            (name, Expression::Literal(Literal::U32(value))) => Some((name, *value)),
+            (name, other) => panic!("{name} is not a plain u32: {other:?}"),
+        }
+    });
+    named
+        .filter(|(name, _)| !name.starts_with("VTEX_KEY_"))
+        .collect()
+}
+
+fn check_constants(module: &Module, variant: &str) {
+    let expected: BTreeMap<&str, u32> = CONSTANTS.iter().copied().collect();
+    assert_eq!(constants(module), expected, "{variant}");
+}
+
+fn check_record(module: &Module, record: &RecordLayout) {
+    let named = module
+        .types
+        .iter()
+        .find(|(_, ty)| ty.name.as_deref() == Some(record.name));
+    let (_, ty) = named.expect("the struct is in the text");
+    let TypeInner::Struct { members, span } = &ty.inner else {
+        panic!("{} is no struct", record.name);
+    };
+    let fields: Vec<_> = members
+        .iter()
+        .map(|m| (m.name.as_deref().unwrap_or(""), m.offset as usize))
+        .collect();
+    assert_eq!(fields, record.fields, "{}", record.name);
+    assert_eq!(*span as usize, record.span_bytes, "{}", record.name);
+}
+
+#[test]
+fn every_variant_has_the_constants_and_records_of_rust() {
+    for features in 0..=Features::ALL {
+        let text = batch_kernel(&key(features));
+        let module = naga::front::wgsl::parse_str(&text).expect("WGSL");
+        check_constants(&module, &format!("features {features:#b}"));
+        check_record(&module, &BATCH_QUERY);
+        let text = scene_evaluator(features, BindingSlot::default());
+        let module = naga::front::wgsl::parse_str(&text).expect("WGSL");
+        check_constants(&module, &format!("scene features {features:#b}"));
+    }
+}
+
+#[test]
+fn bindings_are_where_they_are_said_to_be() {
+    let text = batch_kernel(&key(Features::ALL));
+    let module = naga::front::wgsl::parse_str(&text).expect("WGSL");
+    let mut bindings: Vec<_> = module
+        .global_variables
+        .iter()
+        .filter_map(|(_, variable)| {
+            let at = variable.binding.as_ref()?;
+            Some((at.group, at.binding, variable.name.as_deref().unwrap_or("")))
+        })
+        .collect();
+    bindings.sort_unstable();
+    let expected = [
+        (0, 0, "vtex_words"),
+        (0, 1, "vtex_queries"),
+        (0, 2, "vtex_results"),
+    ];
+    assert_eq!(bindings, expected);
+}

@@ -1,0 +1,258 @@
+//! The WGSL evaluator on an adapter against its Rust twin, on random lookups.
+
+use std::borrow::Cow;
+
+use rayon::prelude::*;
+use vtex_baker::{BakeConfig, Resources, bake};
+use vtex_format::{Features, VtexFile};
+use vtex_shaders::cpu::Sampler;
+use vtex_shaders::{
+    BatchQuery, BindingSlot, FilterMode, PackOptions, batch_kernel, link, pack, scene_context,
+    shader_blob, spec_key,
+};
+use vtex_tests::fixture::random_texture;
+use vtex_tests::gpu::Gpu;
+use vtex_tests::random::Random;
+
+/// Lookups of a random texture in each filter mode.
+const RANDOM_QUERIES: u32 = 100_000;
+/// Lookups of a baked drawing in point mode, and in each of the others.
+const BAKED_POINT_QUERIES: u32 = 1_000_000;
+const BAKED_OTHER_QUERIES: u32 = 200_000;
+
+/// A quarter of an 8-bit step: what a lookup may differ by and count as the same.
+const SAME: f32 = 0.001;
+/// Share of point lookups that may differ: roundings on the two sides of an edge.
+const DIFFERENT_SHARE: f64 = 1e-4;
+/// What a footprint or paper lookup may differ by.
+const FILTERED: f32 = 2.0 / 255.0;
+
+const LISTS: u32 = Features::LISTS;
+const COLOR: u32 = Features::LISTS | Features::MSDF;
+
+/// Feature sets that between them reach every module of the evaluator.
+const CASES: [(&str, u32); 10] = [
+    ("solid", 0),
+    ("full", LISTS | Features::TRANSLUCENT),
+    ("opaque", COLOR),
+    (
+        "opaque-outline",
+        COLOR | Features::OUTLINE | Features::TEXTURE_MATRIX,
+    ),
+    ("translucent", COLOR | Features::TRANSLUCENT),
+    (
+        "translucent-outline",
+        COLOR | Features::TRANSLUCENT | Features::OUTLINE,
+    ),
+    ("mips", COLOR | Features::MIPS),
+    ("images", COLOR | Features::IMAGES | Features::TRANSLUCENT),
+    (
+        "mask",
+        COLOR | Features::IMAGES | Features::MASK | Features::MIPS | Features::OUTLINE,
+    ),
+    ("all", Features::ALL & !Features::MASK),
+];
+
+/// Points up to `margin` outside the canvas; footprints from none to the whole of it.
+fn random_queries(seed: u64, count: u32, margin: f32) -> Vec<BatchQuery> {
+    let mut r = Random::new(seed);
+    let query = |_| {
+        let width = if r.below(4) == 0 {
+            0.0
+        } else {
+            r.between(-12.0, 0.0).exp2()
+        };
+        BatchQuery {
+            uv: [(); 2].map(|()| r.between(-margin, 1.0 + margin)),
+            padding: [0.0; 2],
+            footprint: [(); 4].map(|()| width * r.between(-1.0, 1.0)),
+        }
+    };
+    (0..count).map(query).collect()
+}
+
+fn twin(words: &[u32], queries: &[BatchQuery]) -> Vec<[f32; 4]> {
+    let sampler = Sampler::new(words);
+    queries
+        .par_iter()
+        .map(|query| sampler.sample(query.uv, query.footprint))
+        .collect()
+}
+
+fn distance(a: &[f32; 4], b: &[f32; 4]) -> f32 {
+    let difference = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    // A value that is no number is as far away as can be.
+    difference.fold(0.0, |m, d| {
+        if d <= m {
+            m
+        } else if d.is_nan() {
+            f32::INFINITY
+        } else {
+            d
+        }
+    })
+}
+
+/// Lookups that differ by more than `tolerance`.
+fn differing(a: &[[f32; 4]], b: &[[f32; 4]], tolerance: f32) -> usize {
+    assert_eq!(a.len(), b.len(), "one colour a query");
+    a.iter()
+        .zip(b)
+        .filter(|(a, b)| distance(a, b) > tolerance)
+        .count()
+}
+
+fn check(name: &str, filter: FilterMode, cpu: &[[f32; 4]], gpu: &[[f32; 4]]) {
+    let tolerance = if filter == FilterMode::Point {
+        SAME
+    } else {
+        FILTERED
+    };
+    let count = differing(cpu, gpu, tolerance);
+    let allowed = match filter {
+        FilterMode::Point => DIFFERENT_SHARE * cpu.len() as f64,
+        _ => 0.0,
+    };
+    assert!(
+        count as f64 <= allowed,
+        "{name}, {filter:?}: {count} of {} lookups differ by more than {tolerance}",
+        cpu.len(),
+    );
+}
+
+fn check_file(gpu: &Gpu, name: &str, file: &VtexFile, counts: [u32; 3], margin: f32) {
+    let text = batch_kernel(&spec_key(file));
+    let kernel = gpu.kernel(wgpu::ShaderSource::Wgsl(Cow::Owned(text)));
+    let filters = [FilterMode::Point, FilterMode::Footprint, FilterMode::Paper];
+    for (filter, count) in filters.into_iter().zip(counts) {
+        let words = pack(
+            file,
+            &PackOptions {
+                filter,
+                ..PackOptions::default()
+            },
+        );
+        let queries = random_queries(u64::from(count), count, margin);
+        let answers = kernel.run(&words, &queries);
+        let expected = twin(&words, &queries);
+        assert!(
+            expected.iter().any(|color| *color != expected[0]),
+            "{name} shows something"
+        );
+        check(name, filter, &expected, &answers.colors);
+    }
+}
+
+#[test]
+fn twin_and_gpu_agree() {
+    let Some(gpu) = Gpu::open() else { return };
+    for (index, (name, features)) in (0..).zip(CASES) {
+        let file = random_texture(index, features);
+        assert_eq!(
+            spec_key(&file).features & features,
+            features,
+            "{name} has what it names"
+        );
+        check_file(&gpu, name, &file, [RANDOM_QUERIES; 3], 1.5);
+    }
+}
+
+/// The five kinds of [SFG22] Table 1. Text without fonts: their absence changes shapes, not sides.
+#[test]
+fn twin_and_gpu_agree_on_baked_drawings() {
+    let Some(gpu) = Gpu::open() else { return };
+    for name in [
+        "figures-text-26",
+        "stars-5",
+        "text-27",
+        "arms-11",
+        "peacock",
+    ] {
+        let path = format!("{}/data/svg/paper/{name}.svg", env!("CARGO_MANIFEST_DIR"));
+        let svg = std::fs::read(path).expect("the sample drawings are part of the project");
+        let file = bake(&svg, &BakeConfig::default(), &Resources::default()).expect("bakes");
+        let counts = [
+            BAKED_POINT_QUERIES,
+            BAKED_OTHER_QUERIES,
+            BAKED_OTHER_QUERIES,
+        ];
+        check_file(&gpu, name, &file, counts, 0.1);
+    }
+}
+
+#[test]
+fn the_spirv_in_a_file_is_the_same_kernel() {
+    let Some(gpu) = Gpu::open() else { return };
+    let file = random_texture(77, Features::ALL & !Features::MASK);
+    let key = spec_key(&file);
+    let words = pack(&file, &PackOptions::default());
+    let queries = random_queries(3, RANDOM_QUERIES, 0.5);
+    let spirv = shader_blob(&key).unwrap().batch_spirv;
+    let from_file = gpu
+        .kernel(wgpu::ShaderSource::SpirV(Cow::Owned(spirv)))
+        .run(&words, &queries);
+    let text = wgpu::ShaderSource::Wgsl(Cow::Owned(batch_kernel(&key)));
+    let from_text = gpu.kernel(text).run(&words, &queries);
+    assert_eq!(differing(&from_file.colors, &from_text.colors, 0.0), 0);
+}
+
+/// Several textures in one buffer, looked up by their first word.
+#[test]
+fn scenes_look_up_each_texture_as_if_it_were_alone() {
+    let Some(gpu) = Gpu::open() else { return };
+    let files: Vec<VtexFile> = CASES
+        .iter()
+        .map(|(_, features)| random_texture(5, *features))
+        .collect();
+    let union = files
+        .iter()
+        .fold(0, |union, file| union | spec_key(file).features);
+    for filter in [FilterMode::Point, FilterMode::Footprint] {
+        let options = PackOptions {
+            filter,
+            ..PackOptions::default()
+        };
+        let packed: Vec<Vec<u32>> = files.iter().map(|file| pack(file, &options)).collect();
+        let mut bases = Vec::new();
+        let mut words = Vec::new();
+        for texture in &packed {
+            bases.push(u32::try_from(words.len()).unwrap());
+            words.extend(texture);
+        }
+        let mut queries = random_queries(9, RANDOM_QUERIES, 1.5);
+        for (query, base) in queries.iter_mut().zip(bases.iter().cycle()) {
+            query.padding[0] = f32::from_bits(*base);
+        }
+        let kernel = gpu.kernel(wgpu::ShaderSource::Wgsl(Cow::Owned(scene_kernel(union))));
+        let answers = kernel.run(&words, &queries).colors;
+        for (i, texture) in packed.iter().enumerate() {
+            let mine = |list: &[BatchQuery]| -> Vec<BatchQuery> {
+                list.iter().skip(i).step_by(packed.len()).copied().collect()
+            };
+            let seen: Vec<_> = answers
+                .iter()
+                .skip(i)
+                .step_by(packed.len())
+                .copied()
+                .collect();
+            check(CASES[i].0, filter, &twin(texture, &mine(&queries)), &seen);
+        }
+    }
+}
+
+/// The batch kernel with the texture's first word in the query's padding.
+fn scene_kernel(features: u32) -> String {
+    let root = "//!use core/query\n//!use vtex/sample\n\
+        @group(0) @binding(1) var<storage, read> queries: array<VtexBatchQuery>;\n\
+        @group(0) @binding(2) var<storage, read_write> results: array<vec4f>;\n\
+        @compute @workgroup_size(64)\n\
+        fn vtex_batch(@builtin(global_invocation_id) id: vec3u) {\n    \
+            if id.x < arrayLength(&queries) {\n        \
+                let query = queries[id.x];\n        \
+                let vt = bitcast<u32>(query.padding.x);\n        \
+                results[id.x] = vtex_sample_at(vt, query.uv, query.footprint);\n    \
+            }\n\
+        }\n";
+    let context = scene_context(features, BindingSlot::default());
+    link("test/scene", &context.define("test/scene", root.to_owned())).expect("modules link")
+}
