@@ -2,13 +2,14 @@
 
 use std::time::{Duration, Instant};
 
-use anyhow::{Context as _, Result};
-use vtex_baker::{BakeConfig, Mode, Resources};
-use vtex_format::VtexFile;
+use anyhow::{Context as _, Result, ensure};
+use vtex_baker::Resources;
+use vtex_format::{CellWord, Entry, EntryKind, Grid, Image, SpecKey, VtexFile};
 use vtex_runtime::{LoadOptions, Scene, TraceOptions, Tracer, scene};
 
 use crate::clock::{Trial, interleave};
 use crate::device::Device;
+use crate::rasterise::rasterise;
 use crate::rivals::Effort;
 use crate::subject::{Subject, read};
 use crate::table::{Cell, Table};
@@ -41,15 +42,13 @@ pub(crate) fn rays_table(
         FILM[1],
         TraceOptions::default().max_bounces,
     ));
-    let config = BakeConfig {
-        mode: Mode::Raster,
-        mip0_size: RASTER_SIZE,
-        ..BakeConfig::default()
-    };
     let mut rasters = Vec::new();
     for (path, subject) in subjects {
-        let file = vtex_baker::bake_observed(&read(path)?, &config, resources, &|_| ());
-        rasters.push(file.with_context(|| format!("cannot bake {}", subject.name))?);
+        let image = rasterise(&read(path)?, resources, RASTER_SIZE);
+        rasters.push(raster_file(
+            &subject.file,
+            image.with_context(|| subject.name.clone())?,
+        ));
     }
     let vectors: Vec<VtexFile> = subjects
         .iter()
@@ -81,6 +80,36 @@ pub(crate) fn rays_table(
         )?);
     }
     Ok(table)
+}
+
+/// A texture of one cell whose only entry is `image`.
+fn raster_file(like: &VtexFile, image: Image) -> VtexFile {
+    let entry = Entry {
+        kind: EntryKind::Image,
+        last: true,
+        opaque: false,
+        index: 0,
+        data: 0,
+    };
+    let cell = CellWord::List { offset_words: 0 };
+    let mut file = VtexFile {
+        cells: cell.encode().into_iter().collect(),
+        entries: entry.encode().into_iter().flatten().collect(),
+        images: vec![image],
+        shapes: Vec::new(),
+        layers: Vec::new(),
+        tiles: Vec::new(),
+        ..like.clone()
+    };
+    file.meta.grid = Grid {
+        size_cells: [1, 1],
+        cell_from_uv_scale: [1.0, 1.0],
+        cell_from_uv_offset: [0.0, 0.0],
+        ..like.meta.grid
+    };
+    file.spec.features = 0;
+    file.spec = SpecKey::for_file(&file);
+    file
 }
 
 fn row(device: &Device, name: &str, scenes: &[Scene], effort: Effort) -> Result<Vec<Cell>> {
