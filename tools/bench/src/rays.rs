@@ -45,10 +45,10 @@ pub(crate) fn rays_table(
     let mut rasters = Vec::new();
     for (path, subject) in subjects {
         let image = rasterise(&read(path)?, resources, RASTER_SIZE);
-        rasters.push(raster_file(
-            &subject.file,
-            image.with_context(|| subject.name.clone())?,
-        ));
+        let file = raster_file(&subject.file, image.with_context(|| subject.name.clone())?);
+        let issues = file.check();
+        ensure!(issues.is_empty(), "{}: {issues:?}", subject.name);
+        rasters.push(file);
     }
     let vectors: Vec<VtexFile> = subjects
         .iter()
@@ -101,9 +101,11 @@ fn raster_file(like: &VtexFile, image: Image) -> VtexFile {
         tiles: Vec::new(),
         ..like.clone()
     };
+    // Cells are square in user units.
+    let [width, height] = like.meta.canvas_size;
     file.meta.grid = Grid {
         size_cells: [1, 1],
-        cell_from_uv_scale: [1.0, 1.0],
+        cell_from_uv_scale: [width, height].map(|side| side / width.max(height)),
         cell_from_uv_offset: [0.0, 0.0],
         ..like.meta.grid
     };
