@@ -99,6 +99,7 @@ fn raster_file(like: &VtexFile, image: Image) -> VtexFile {
         shapes: Vec::new(),
         layers: Vec::new(),
         tiles: Vec::new(),
+        provenance: None,
         ..like.clone()
     };
     // Cells are square in user units.
