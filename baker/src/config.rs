@@ -32,13 +32,13 @@ pub struct BakeConfig {
     pub distance_range_texels: f32,
     /// Largest magnification that geometry is prepared for; 1 shows the canvas at 512 pixels.
     pub max_zoom: f32,
-    /// Put all shapes into one layer, [SFG22]'s "merge all".
+    /// Put all shapes into one layer, \[SFG22\]'s "merge all".
     pub merge: bool,
     /// Output coverage only.
     pub mask: bool,
-    /// Half width S of [SFG22] eq. 1, in units of the stored field.
+    /// Half width S of \[SFG22\] eq. 1, in units of the stored field.
     pub smoothing: f32,
-    /// Width of [SFG22] eq. 2's outline in texels.
+    /// Width of \[SFG22\] eq. 2's outline in texels.
     pub outline_texels: Option<f32>,
     /// Replaces every fill's colour: straight alpha, sRGB-encoded.
     pub fill_color: Option<[f32; 4]>,

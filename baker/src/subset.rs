@@ -53,7 +53,7 @@ pub(crate) fn pack(items: &[Placed], window: Rect, reach: f64) -> Packing {
     }
 }
 
-/// [SFG22]'s "merge all": every item in rank 0, whatever they touch.
+/// \[SFG22\]'s "merge all": every item in rank 0, whatever they touch.
 pub(crate) fn merge_all(items: &[Placed], window: Rect, reach: f64) -> Packing {
     Packing {
         ranks: vec![0; items.len()],

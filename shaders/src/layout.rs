@@ -50,7 +50,7 @@ mod header = "HEADER" {
     TEXELS_PER_CELL = 16;
     /// Float: full distance range in texels.
     DISTANCE_RANGE = 17;
-    /// Float: half width S of [SFG22] eq. 1.
+    /// Float: half width S of \[SFG22\] eq. 1.
     SMOOTHING = 18;
     /// Float: eq. 2's width in texels; 0 when off.
     OUTLINE_WIDTH = 19;
@@ -175,7 +175,7 @@ pub enum FilterMode {
     Point = 0,
     /// A ramp as wide as the footprint.
     Footprint = 1,
-    /// [SFG22] eq. 1: a smoothstep of constant half width S.
+    /// \[SFG22\] eq. 1: a smoothstep of constant half width S.
     Paper = 2,
 }
 

@@ -19,7 +19,7 @@ pub struct PackOptions {
     pub address: Option<[AddressMode; 2]>,
     /// Texture matrix instead of the file's, as [`SamplerSettings::texture_matrix`].
     pub texture_matrix: Option<[f32; 6]>,
-    /// Half width S of [SFG22] eq. 1 instead of the file's, in (0, 0.5].
+    /// Half width S of \[SFG22\] eq. 1 instead of the file's, in (0, 0.5].
     pub smoothing: Option<f32>,
 }
 

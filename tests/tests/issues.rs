@@ -25,7 +25,7 @@ fn corpus() -> Option<PathBuf> {
     None
 }
 
-/// Issue 2: all ten drawings of the kinds of [SFG22] Table 1 bake and are valid; those of solid
+/// Issue 2: all ten drawings of the kinds of \[SFG22\] Table 1 bake and are valid; those of solid
 /// fills and strokes alone reach 35 dB at 512 pixels.
 #[test]
 fn paper5_bakes_and_looks_right() {

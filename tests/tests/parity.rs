@@ -157,7 +157,7 @@ fn twin_and_gpu_agree() {
     }
 }
 
-/// The five kinds of [SFG22] Table 1. Text without fonts: their absence changes shapes, not sides.
+/// The five kinds of \[SFG22\] Table 1. Text without fonts: their absence changes shapes, not sides.
 #[test]
 fn twin_and_gpu_agree_on_baked_drawings() {
     let Some(gpu) = Gpu::open() else { return };

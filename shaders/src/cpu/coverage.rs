@@ -3,7 +3,7 @@
 use super::{Lookup, Sampler, msdf};
 use crate::layout::entry;
 
-/// Of the shape, and of the ring around it where `outline` asks for it ([SFG22] eq. 2).
+/// Of the shape, and of the ring around it where `outline` asks for it (\[SFG22\] eq. 2).
 pub(super) fn coverage(
     sampler: &Sampler<'_>,
     [head, tile]: [u32; 2],

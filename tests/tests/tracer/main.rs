@@ -2,6 +2,11 @@
 //!
 //! `VTEX_GPU=off` skips these tests and says so; without it a missing adapter is a failure.
 
+#![expect(
+    clippy::unwrap_used,
+    reason = "helpers of tests fail as tests do, by panicking"
+)]
+
 mod batch;
 
 use std::sync::{Arc, OnceLock};

@@ -26,7 +26,7 @@ pub(crate) struct Effort {
 /// Kernels with their names; the first is the baseline.
 type Named = Vec<(String, Kernel)>;
 
-/// The loop of [SFG22] beside the raster texture.
+/// The loop of \[SFG22\] beside the raster texture.
 pub(crate) fn sfg22_table(device: &Device, effort: Effort) -> Result<Table> {
     let baseline = hardware_kernel(device, &synthetic(RASTER_SIZE));
     let mut kernels = vec![(format!("raster {RASTER_SIZE}^2, sampler"), baseline)];

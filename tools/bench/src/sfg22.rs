@@ -1,12 +1,12 @@
-//! The method of [SFG22]: dense MSDF layers, every one read at every lookup.
+//! The method of \[SFG22\]: dense MSDF layers, every one read at every lookup.
 
 use crate::device::{Device, Kernel};
 
-/// [SFG22]'s own size of a layer.
+/// \[SFG22\]'s own size of a layer.
 pub(crate) const LAYER_SIZE: u32 = 512;
-/// Shapes of the kinds in [SFG22] Table 1: one, a star pattern, text, the Tiger.
+/// Shapes of the kinds in \[SFG22\] Table 1: one, a star pattern, text, the Tiger.
 pub(crate) const LAYER_COUNTS: [u32; 4] = [1, 5, 27, 240];
-/// Half width of the smoothstep, [SFG22]'s default.
+/// Half width of the smoothstep, \[SFG22\]'s default.
 const SMOOTHING: f32 = 1.0 / 64.0;
 
 /// Layers on the device: a texture array of [`LAYER_SIZE`] and as many layers as fit.

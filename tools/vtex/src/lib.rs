@@ -1,7 +1,7 @@
 //! The parts of the `vtex` command that tests and benches use too: the resvg reference, picture
 //! metrics, previews and comparisons.
 //!
-//! [`reference`] draws the truth, [`preview`] shoots pictures of a texture, [`metrics`] says how
+//! [`mod@reference`] draws the truth, [`preview`] shoots pictures of a texture, [`metrics`] says how
 //! far they are apart, [`comparison`] does all three at a zoom. [`command::run`] is the whole
 //! command.
 

@@ -54,7 +54,12 @@ impl Bench {
     fn names(&self) -> Vec<String> {
         let entries = fs::read_dir(&self.folder).expect("the folder can be listed");
         let mut names: Vec<String> = entries
-            .map(|e| e.unwrap().file_name().to_string_lossy().into_owned())
+            .map(|e| {
+                e.expect("an entry can be read")
+                    .file_name()
+                    .to_string_lossy()
+                    .into_owned()
+            })
             .collect();
         names.sort();
         names
@@ -171,7 +176,7 @@ fn a_file_without_permission_is_reported() {
     use std::os::unix::fs::PermissionsExt;
     let bench = Bench::new();
     let path = bench.path("square.svg");
-    fs::set_permissions(&path, fs::Permissions::from_mode(0)).expect("permissions can be set");
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o000)).expect("permissions can be set");
     if fs::read(&path).is_ok() {
         // Nothing is unreadable to root.
         return;
