@@ -14,7 +14,7 @@ use crate::rasterise::rasterise;
 use crate::subject::{name, read};
 use crate::table::{Cell, Table};
 
-/// Columns in the order of a bake.
+/// Columns in the order of [`Stage`]; the baker draws mips before it prepares outlines.
 const STAGES: [(Stage, &str); 8] = [
     (Stage::Parse, "parse"),
     (Stage::Draw, "draw"),
