@@ -64,6 +64,8 @@ vtex_need_vulkan() {
     if [ "${VTEX_GPU:-}" = off ] || [ "$(uname -s)" != Linux ]; then
         return 0
     fi
+    # Mesa's window system code complains on stderr where this is not set, windows or not.
+    export XDG_RUNTIME_DIR=${XDG_RUNTIME_DIR:-${TMPDIR:-/tmp}}
     if vtex_has_vulkan; then
         return 0
     fi

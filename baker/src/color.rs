@@ -2,23 +2,7 @@
 
 use std::sync::LazyLock;
 
-/// sRGB-encoded value to linear light, both in \[0, 1\].
-pub(crate) fn decode(encoded: f32) -> f32 {
-    if encoded <= 0.040_45 {
-        encoded / 12.92
-    } else {
-        ((encoded + 0.055) / 1.055).powf(2.4)
-    }
-}
-
-/// Linear light to its sRGB-encoded value, both in \[0, 1\].
-pub(crate) fn encode(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 {
-        linear * 12.92
-    } else {
-        1.055 * linear.powf(1.0 / 2.4) - 0.055
-    }
-}
+pub(crate) use vtex_shaders::cpu::color::{decode_channel as decode, encode_channel as encode};
 
 /// A value in \[0, 1\] as the nearest of 256 codes; NaN gives 0.
 #[expect(

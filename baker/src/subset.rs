@@ -236,10 +236,12 @@ mod tests {
 
     use super::{FLATTEN_TOLERANCE, Packing, merge_all, pack};
     use crate::{
+        config::BakeConfig,
         drawing::FillRule,
         geometry::{flatten, line_line_distance},
-        placed::{Placed, PlacedKind},
-        testing::{Random, random_outline},
+        grid::Lattice,
+        placed::{Placed, PlacedKind, place},
+        testing::{Random, corpus_file, drawing_of, random_outline},
     };
 
     const WINDOW: Rect = Rect::new(-50.0, -50.0, 250.0, 250.0);
@@ -265,6 +267,10 @@ mod tests {
 
     /// Every line against every line, every vertex against the other's inside.
     fn meet(a: &Placed, b: &Placed, reach: f64) -> bool {
+        let apart = |a: Rect, b: Rect| !a.inflate(reach, reach).overlaps(b);
+        if apart(a.bounds(), b.bounds()) {
+            return false;
+        }
         let (lines_a, lines_b) = (lines(a), lines(b));
         let close = lines_a
             .iter()
@@ -345,5 +351,30 @@ mod tests {
         let merged = merge_all(&items, WINDOW, 1.0);
         assert!(merged.forced && merged.ranks == [0; 4]);
         assert!(!merge_all(&items[2..], WINDOW, 1.0).forced);
+    }
+
+    /// Disjoint and in order on real drawings, and as few layers as the longest chain allows.
+    #[test]
+    #[expect(clippy::print_stdout, reason = "says when there is no corpus")]
+    fn corpus_ranks_are_the_longest_chains() {
+        let everywhere = Rect::new(-1e7, -1e7, 1e7, 1e7);
+        for name in [
+            "paper5/5_tiger__svgpan__tiger.svg",
+            "paper5/1_figures_text__openclipart-svg__facilement_inflammable_y_01.svg",
+            "paper5/2_star_outline__openclipart-svg__southen_cross_01.svg",
+            "paper5/3_text__matplotlib__mathtext_cm_54.svg",
+            "paper5/4_coat_of_arms__openclipart-svg__saxony_coat_of_arms_me_01.svg",
+        ] {
+            let Some(svg) = corpus_file(name) else {
+                println!("no corpus, {name} not packed");
+                continue;
+            };
+            let config = BakeConfig::default();
+            let drawing = drawing_of(&svg, &config);
+            let lattice = Lattice::new(drawing.canvas_size, config.msdf_size);
+            let items = place(&drawing, &lattice);
+            let reach = f64::from(config.distance_range_texels);
+            check(&items, &pack(&items, everywhere, reach), reach);
+        }
     }
 }

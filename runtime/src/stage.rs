@@ -84,14 +84,14 @@ impl Room {
                 textures: Vec::new(),
                 sky: Sky {
                     zenith: [0.16, 0.20, 0.26],
-                    horizon: [0.34, 0.35, 0.36],
+                    horizon: [0.55, 0.57, 0.6],
                     ground: [0.12, 0.12, 0.11],
                 },
                 lights: vec![RectLight {
                     corner: Vec3::new(-2.2, 4.0, -0.2),
                     edge_u: Vec3::new(2.4, 0.0, 0.0),
                     edge_v: Vec3::new(0.0, -0.8, 1.6),
-                    radiance: [7.0, 6.7, 6.2],
+                    radiance: [10.5, 10.1, 9.4],
                 }],
                 camera: Camera {
                     position: Vec3::new(0.25, 1.45, 4.9),

@@ -1,27 +1,33 @@
 //! Twin of `core/color.wgsl`: the sRGB transfer functions of IEC 61966-2-1.
 
-/// Linear light of a straight, sRGB-encoded colour; below zero counts as zero.
-pub fn decode(encoded: [f32; 3]) -> [f32; 3] {
-    encoded.map(|c| {
-        let c = c.max(0.0);
-        if c <= 0.040_45 {
-            c / 12.92
-        } else {
-            ((c + 0.055) / 1.055).powf(2.4)
-        }
-    })
+/// Linear light of one sRGB-encoded channel; below zero counts as zero.
+pub fn decode_channel(encoded: f32) -> f32 {
+    let c = encoded.max(0.0);
+    if c <= 0.040_45 {
+        c / 12.92
+    } else {
+        ((c + 0.055) / 1.055).powf(2.4)
+    }
 }
 
-/// sRGB encoding of a straight, linear-light colour; below zero counts as zero.
+/// sRGB encoding of one linear-light channel; below zero counts as zero.
+pub fn encode_channel(linear_light: f32) -> f32 {
+    let c = linear_light.max(0.0);
+    if c <= 0.003_130_8 {
+        c * 12.92
+    } else {
+        1.055 * c.powf(1.0 / 2.4) - 0.055
+    }
+}
+
+/// Linear light of a straight, sRGB-encoded colour.
+pub fn decode(encoded: [f32; 3]) -> [f32; 3] {
+    encoded.map(decode_channel)
+}
+
+/// sRGB encoding of a straight, linear-light colour.
 pub fn encode(linear_light: [f32; 3]) -> [f32; 3] {
-    linear_light.map(|c| {
-        let c = c.max(0.0);
-        if c <= 0.003_130_8 {
-            c * 12.92
-        } else {
-            1.055 * c.powf(1.0 / 2.4) - 0.055
-        }
-    })
+    linear_light.map(encode_channel)
 }
 
 /// Linear light of a premultiplied, sRGB-encoded colour, premultiplied.

@@ -4,18 +4,11 @@
 //! word and may be longer; words that are missing count as segments that are not there. `p` is in
 //! units of the record's box.
 
-use vtex_format::{
-    CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, MAX_CURVE_SEGMENTS, MAX_CURVE_STEPS,
-};
+use vtex_format::{CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS};
 
-/// Newton steps towards the nearest point of a quadratic. With the start at the point's own
-/// parameter the error is below a hundredth of a unit after three where it matters; see the test.
-const NEWTON_STEPS: u32 = 4;
-
-/// Mask of a segment count.
-const COUNT_MASK: u32 = MAX_CURVE_SEGMENTS;
-/// Mask of a step count.
-const STEP_MASK: u32 = MAX_CURVE_STEPS;
+use super::Sampler;
+use super::math::to_f32;
+use crate::layout::curve::{COUNT_MASK, NEWTON_STEPS, STEP_MASK};
 
 type Vec2 = [f32; 2];
 
@@ -173,6 +166,25 @@ pub fn distance(record: &[u32], p: Vec2, reach: f32) -> f32 {
     } else {
         -length
     }
+}
+
+/// In texels, inside positive, far beyond every ramp where the record does not reach. `at` is the
+/// record's place in its section. Only the sign is right when `sharp`.
+pub(super) fn texels(sampler: &Sampler<'_>, at: u32, q: Vec2, sharp: bool) -> f32 {
+    let settings = &sampler.settings;
+    let record = sampler.words_from(settings.curves.wrapping_add(at));
+    let [units_per_cell, reach] = settings.curve_lattice;
+    let p = q.map(|q| q * units_per_cell + reach);
+    let far = |inside: bool| if inside { 1e9 } else { -1e9 };
+    if sharp || reach <= 0.0 {
+        return far(inside(record, p));
+    }
+    let units = distance(record, p, reach);
+    // The slack is for square roots that are not correctly rounded.
+    if units.abs() >= reach * 0.999_999 {
+        return far(units > 0.0);
+    }
+    units / units_per_cell * to_f32(settings.texels_per_cell)
 }
 
 fn box_distance_squared(a: Vec2, b: Vec2) -> f32 {

@@ -10,6 +10,7 @@ pub mod color;
 mod composite;
 mod coverage;
 pub mod curve;
+mod edge;
 mod entry;
 mod footprint;
 mod image;
@@ -18,6 +19,7 @@ mod matrix;
 mod minify;
 mod msdf;
 mod over;
+mod ramp;
 mod sample;
 mod settings;
 mod source;
@@ -25,6 +27,7 @@ mod value;
 mod words;
 
 use footprint::Lookup;
+pub(crate) use math::to_f32;
 use settings::Settings;
 use value::Value;
 

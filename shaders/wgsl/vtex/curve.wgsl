@@ -1,11 +1,8 @@
 //!use core/layout
 //!use vtex/words
+//!use vtex/settings
 // Winding and distance from the exact outline inside a cell. docs/format.md, "Curve records".
 // Twin: cpu/curve.rs. `p` is in units of the record's box, `record` a word of texture `vt`.
-
-const VTEX_CURVE_COUNT_MASK: u32 = 0x7ffu;
-const VTEX_CURVE_STEP_MASK: u32 = 0x1ffu;
-const VTEX_CURVE_NEWTON_STEPS: u32 = 4u;
 
 struct VtexCurveParts {
     step_count: u32,
@@ -173,4 +170,23 @@ fn vtex_curve_quad_distance_squared(a: vec2f, c: vec2f, b: vec2f) -> f32 {
     }
     let v = a + t * (b1 + (b1 + c2 * t));
     return dot(v, v);
+}
+
+// In texels, inside positive, far beyond every ramp where the record does not reach. `q` is the
+// position inside the cell, `at` the record's place in its section. Only the sign is right when
+// `sharp`.
+fn vtex_curve_texels(vt: u32, at: u32, q: vec2f, sharp: bool) -> f32 {
+    let record = vtex_word(vt, VTEX_HEADER_CURVES) + at;
+    let lattice = vtex_word_float2(vt, VTEX_HEADER_CURVE_UNITS);
+    let reach = lattice.y;
+    let p = q * lattice.x + reach;
+    if sharp || reach <= 0.0 {
+        return select(-1e9, 1e9, vtex_curve_inside(vt, record, p));
+    }
+    let units = vtex_curve_distance(vt, record, p, reach);
+    // The slack is for square roots that are not correctly rounded.
+    if abs(units) >= reach * 0.999999 {
+        return select(-1e9, 1e9, units > 0.0);
+    }
+    return units / lattice.x * f32(vtex_settings_texels_per_cell(vt));
 }

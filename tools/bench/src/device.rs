@@ -1,9 +1,11 @@
 //! The adapter, and kernels timed on it.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, Result};
 use serde_json::{Value, json};
+use vtex_runtime::Gpu;
 use wgpu::util::DeviceExt as _;
 
 use crate::queries::QuerySet;
@@ -11,7 +13,7 @@ use crate::queries::QuerySet;
 /// A 32-bit copy destination that mapping wants: two timestamps of 8 bytes.
 const STAMPS_BYTES: u64 = 16;
 
-/// A device with every limit its adapter has, so that rivals as big as \[SFG22\]'s 240 layers fit.
+/// A device with the limits of core WebGPU.
 #[derive(Debug)]
 pub(crate) struct Device {
     pub(crate) device: wgpu::Device,
@@ -45,29 +47,22 @@ pub(crate) struct Batch {
 }
 
 impl Device {
-    /// The adapter that the environment asks for (`WGPU_BACKEND` and the like), else the fastest.
+    /// The adapter that the runtime would take.
     pub(crate) fn open() -> Result<Self> {
-        let descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
-        let instance = wgpu::Instance::new(descriptor);
-        let options = wgpu::RequestAdapterOptions {
-            power_preference: wgpu::PowerPreference::HighPerformance,
-            ..wgpu::RequestAdapterOptions::default()
-        };
-        let adapter = pollster::block_on(instance.request_adapter(&options))
-            .context("no graphics adapter found")?;
-        let timestamps = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
-        let descriptor = wgpu::DeviceDescriptor {
-            required_features: timestamps,
-            required_limits: adapter.limits(),
-            ..wgpu::DeviceDescriptor::default()
-        };
-        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
-            .context("the adapter gives no device")?;
-        let stamps = (!timestamps.is_empty()).then(|| Stamps::new(&device, &queue));
+        let Gpu {
+            adapter_info: info,
+            device,
+            queue,
+        } = Gpu::headless()?;
+        // The runtime drops errors it does not expect; here each is a broken kernel of our own,
+        // and what it would time is nothing.
+        device.on_uncaptured_error(Arc::new(|error| panic!("{error}")));
+        let has_timestamps = device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
+        let stamps = has_timestamps.then(|| Stamps::new(&device, &queue));
         Ok(Self {
             device,
             queue,
-            info: adapter.get_info(),
+            info,
             stamps,
         })
     }

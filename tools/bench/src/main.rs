@@ -7,6 +7,7 @@ mod lookups;
 mod machine;
 mod queries;
 mod raster;
+mod rasterise;
 mod rays;
 mod report;
 mod rivals;
@@ -47,7 +48,7 @@ struct Args {
     #[arg(long, value_delimiter = ',')]
     only: Vec<Part>,
     /// Timed runs of everything after the warm-up.
-    #[arg(long, default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..))]
     rounds: u16,
     /// Lookups a run on the GPU, in units of 2^18 (one 512 x 512 window).
     #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..=16))]
@@ -127,7 +128,7 @@ fn main() -> Result<()> {
 
 /// The system's fonts, for drawings with text.
 fn resources() -> Resources {
-    let mut fonts = usvg::fontdb::Database::new();
+    let mut fonts = resvg::usvg::fontdb::Database::new();
     fonts.load_system_fonts();
     Resources {
         fonts: Arc::new(fonts),

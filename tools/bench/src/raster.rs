@@ -208,8 +208,8 @@ fn linear(decode: &[f32; 256], [r, g, b, a]: [u8; 4]) -> [f32; 4] {
     [color[0], color[1], color[2], f32::from(a) / 255.0]
 }
 
-/// IEC 61966-2-1.
-fn decode_table() -> [f32; 256] {
+/// Linear light of the bytes, IEC 61966-2-1.
+pub(crate) fn decode_table() -> [f32; 256] {
     std::array::from_fn(|byte| {
         let encoded = byte as f32 / 255.0;
         if encoded <= 0.04045 {

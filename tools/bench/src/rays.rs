@@ -2,15 +2,16 @@
 
 use std::time::{Duration, Instant};
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, ensure};
 use vtex_baker::Resources;
-use vtex_format::VtexFile;
+use vtex_format::{CellWord, Entry, EntryKind, Grid, Image, SpecKey, VtexFile};
 use vtex_runtime::{LoadOptions, Scene, TraceOptions, Tracer, scene};
 
 use crate::clock::{Trial, interleave};
 use crate::device::Device;
+use crate::rasterise::rasterise;
 use crate::rivals::Effort;
-use crate::subject::{Subject, raster_config, read};
+use crate::subject::{Subject, read};
 use crate::table::{Cell, Table};
 
 /// The film. Small, since a software driver does about a million rays a second.
@@ -43,13 +44,11 @@ pub(crate) fn rays_table(
     ));
     let mut rasters = Vec::new();
     for (path, subject) in subjects {
-        let file = vtex_baker::bake_observed(
-            &read(path)?,
-            &raster_config(RASTER_SIZE),
-            resources,
-            &|_| (),
-        );
-        rasters.push(file.with_context(|| format!("cannot bake {}", subject.name))?);
+        let image = rasterise(&read(path)?, resources, RASTER_SIZE);
+        let file = raster_file(&subject.file, image.with_context(|| subject.name.clone())?);
+        let issues = file.check();
+        ensure!(issues.is_empty(), "{}: {issues:?}", subject.name);
+        rasters.push(file);
     }
     let vectors: Vec<VtexFile> = subjects
         .iter()
@@ -81,6 +80,39 @@ pub(crate) fn rays_table(
         )?);
     }
     Ok(table)
+}
+
+/// A texture of one cell whose only entry is `image`.
+fn raster_file(like: &VtexFile, image: Image) -> VtexFile {
+    let entry = Entry {
+        kind: EntryKind::Image,
+        last: true,
+        opaque: false,
+        index: 0,
+        data: 0,
+    };
+    let cell = CellWord::List { offset_words: 0 };
+    let mut file = VtexFile {
+        cells: cell.encode().into_iter().collect(),
+        entries: entry.encode().into_iter().flatten().collect(),
+        images: vec![image],
+        shapes: Vec::new(),
+        layers: Vec::new(),
+        tiles: Vec::new(),
+        provenance: None,
+        ..like.clone()
+    };
+    // Cells are square in user units.
+    let [width, height] = like.meta.canvas_size;
+    file.meta.grid = Grid {
+        size_cells: [1, 1],
+        cell_from_uv_scale: [width, height].map(|side| side / width.max(height)),
+        cell_from_uv_offset: [0.0, 0.0],
+        ..like.meta.grid
+    };
+    file.spec.features = 0;
+    file.spec = SpecKey::for_file(&file);
+    file
 }
 
 fn row(device: &Device, name: &str, scenes: &[Scene], effort: Effort) -> Result<Vec<Cell>> {

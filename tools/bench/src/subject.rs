@@ -4,13 +4,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result};
-use vtex_baker::{BakeConfig, Mode, Resources};
+use vtex_baker::{BakeConfig, Resources};
 use vtex_format::{Image, VtexFile};
 use vtex_shaders::{FilterMode, PackOptions, pack};
 
 use crate::count::{Count, count};
 use crate::queries::{QuerySet, Screen};
 use crate::raster::RASTER_SIZE;
+use crate::rasterise::rasterise;
 
 /// Sides of the lattice of points that judge how busy a window is.
 const PROBES: u16 = 24;
@@ -36,17 +37,15 @@ pub(crate) struct Subject {
 }
 
 impl Subject {
-    /// Reads and bakes a file twice, as vectors and as a raster.
+    /// Reads, bakes and rasterises a file.
     pub(crate) fn bake(path: &Path, resources: &Resources) -> Result<Self> {
         let name = name(path);
         let svg = read(path)?;
-        let baked = |config: &BakeConfig| {
-            vtex_baker::bake_observed(&svg, config, resources, &|_| ())
-                .with_context(|| format!("cannot bake {name}"))
-        };
-        let file = baked(&BakeConfig::default())?;
-        let raster = canvas_image(baked(&raster_config(RASTER_SIZE))?)
-            .with_context(|| format!("{name} has no raster image"))?;
+        let fail = || format!("cannot bake {name}");
+        let config = BakeConfig::default();
+        let file =
+            vtex_baker::bake_observed(&svg, &config, resources, &|_| ()).with_context(fail)?;
+        let raster = rasterise(&svg, resources, RASTER_SIZE).with_context(fail)?;
         let screen = Screen::new(file.meta.canvas_size);
         let busy_corner = busiest(&file, screen);
         Ok(Self {
@@ -77,15 +76,6 @@ impl Subject {
                 ..PackOptions::default()
             },
         )
-    }
-}
-
-/// The baker's settings for a raster texture of `size` texels along the longer side.
-pub(crate) fn raster_config(size: u32) -> BakeConfig {
-    BakeConfig {
-        mode: Mode::Raster,
-        mip0_size: size,
-        ..BakeConfig::default()
     }
 }
 
@@ -125,11 +115,6 @@ fn svg_files(folder: &Path) -> Vec<PathBuf> {
         .collect();
     paths.sort();
     paths
-}
-
-/// The image that holds the whole canvas.
-fn canvas_image(file: VtexFile) -> Option<Image> {
-    file.images.into_iter().max_by_key(|image| image.size)
 }
 
 /// Corner of the 8x window whose lookups visit the most entries; ties go to the first.

@@ -1,22 +1,6 @@
 //! The sRGB transfer function, IEC 61966-2-1.
 
-/// Encoded to linear, both in \[0, 1\].
-pub fn decode(encoded: f32) -> f32 {
-    if encoded <= 0.040_45 {
-        encoded / 12.92
-    } else {
-        ((encoded + 0.055) / 1.055).powf(2.4)
-    }
-}
-
-/// Linear to encoded, both in \[0, 1\].
-pub fn encode(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 {
-        linear * 12.92
-    } else {
-        1.055 * linear.powf(1.0 / 2.4) - 0.055
-    }
-}
+pub use vtex_shaders::cpu::color::{decode_channel as decode, encode_channel as encode};
 
 /// A value in \[0, 1\] as a byte, rounded; outside it is clamped.
 #[expect(
