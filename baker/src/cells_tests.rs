@@ -6,11 +6,12 @@ use kurbo::{Point, Rect, Shape as _};
 use vtex_format::{CellWord, EntryKind, VtexFile};
 
 use crate::{
-    config::{BakeConfig, Resources},
+    config::{BakeConfig, Mode, Resources},
     drawing::{Drawing, FillRule, Item},
     encode::assemble,
     geometry::line_box_distance,
     grid::Lattice,
+    judge::{Coverage, Verdict},
     placed::{Placed, PlacedKind, place},
     testing::{Evaluator, Random, corpus_file, corpus_root, drawing_of, random_outline, shape},
 };
@@ -19,6 +20,18 @@ fn bake(drawing: Drawing, config: &BakeConfig) -> VtexFile {
     let file = assemble(drawing, None, config, [0; 32], &|_| ()).unwrap();
     assert_eq!(file.check(), []);
     file
+}
+
+fn msdf() -> BakeConfig {
+    BakeConfig {
+        mode: Mode::Msdf,
+        ..BakeConfig::default()
+    }
+}
+
+fn place_msdf(drawing: &Drawing, lattice: &Lattice) -> Vec<Placed> {
+    let verdicts = vec![Verdict::forced(Coverage::Msdf); drawing.items.len()];
+    place(drawing, lattice, &verdicts)
 }
 
 fn random_drawing(seed: u64, count: usize) -> Drawing {
@@ -54,7 +67,7 @@ struct Tally {
 /// Evaluates lists with each listed shape's exact inside test in place of its tile.
 fn compare_lists(drawing: &Drawing, file: &VtexFile, config: &BakeConfig, points: u32) -> Tally {
     let lattice = Lattice::new(drawing.canvas_size, config.msdf_size);
-    let placed = place(drawing, &lattice);
+    let placed = place_msdf(drawing, &lattice);
     let evaluator = Evaluator { file };
     let mut random = Random(5);
     let mut tally = Tally::default();
@@ -130,7 +143,7 @@ fn lists_show_what_the_painter_paints() {
     for (seed, msdf_size) in (0..).zip([64, 200, 512, 64, 200, 512]) {
         let config = BakeConfig {
             msdf_size,
-            ..BakeConfig::default()
+            ..msdf()
         };
         let file = bake(random_drawing(seed, 60), &config);
         let tally = compare_lists(&random_drawing(seed, 60), &file, &config, 20_000);
@@ -145,7 +158,7 @@ fn tiger_lists_show_what_the_painter_paints() {
         println!("no corpus, nothing compared");
         return;
     };
-    let config = BakeConfig::default();
+    let config = msdf();
     let file = bake(drawing_of(&svg, &config), &config);
     let slow = std::env::var_os("VTEX_SLOW").is_some();
     let points = if slow { 300_000 } else { 30_000 };
@@ -159,11 +172,11 @@ fn tiger_lists_show_what_the_painter_paints() {
 fn texels_are_inside_exactly_where_the_winding_says() {
     let config = BakeConfig {
         msdf_size: 128,
-        ..BakeConfig::default()
+        ..msdf()
     };
     let drawing = random_drawing(3, 40);
     let lattice = Lattice::new(drawing.canvas_size, config.msdf_size);
-    let placed = place(&drawing, &lattice);
+    let placed = place_msdf(&drawing, &lattice);
     let file = bake(random_drawing(3, 40), &config);
     let n = lattice.grid.texels_per_cell as usize;
     let columns = lattice.grid.size_cells[0] as usize;
@@ -202,7 +215,7 @@ fn texels_are_inside_exactly_where_the_winding_says() {
 fn tiles_side_by_side_share_their_border() {
     let config = BakeConfig {
         msdf_size: 128,
-        ..BakeConfig::default()
+        ..msdf()
     };
     let mut drawing = random_drawing(3, 40);
     drawing.items.truncate(1);
@@ -250,7 +263,7 @@ fn same_file_at_any_thread_count() {
                 .num_threads(threads)
                 .build()
                 .unwrap();
-            pool.install(|| bake(random_drawing(4, 80), &BakeConfig::default()))
+            pool.install(|| bake(random_drawing(4, 80), &msdf()))
         })
         .collect();
     assert_eq!(files[0], files[1]);
@@ -262,7 +275,7 @@ fn same_file_at_any_thread_count() {
 fn merged_shapes_share_a_layer_and_are_warned_about() {
     let config = BakeConfig {
         merge: true,
-        ..BakeConfig::default()
+        ..msdf()
     };
     let file = bake(random_drawing(6, 40), &config);
     assert_eq!(file.layers.len(), 1);
@@ -297,7 +310,7 @@ fn an_outline_widens_range_and_lists() {
         msdf_size: 128,
         outline_texels: Some(6.0),
         stroke_color: Some([0.0, 0.0, 1.0, 1.0]),
-        ..BakeConfig::default()
+        ..msdf()
     };
     let file = bake(drawing(), &config);
     let outline = file.meta.sampler.outline.unwrap();
@@ -321,7 +334,7 @@ fn a_drawing_that_shows_nothing_is_one_empty_grid() {
         items: Vec::new(),
         warnings: Vec::new(),
     };
-    let file = bake(drawing, &BakeConfig::default());
+    let file = bake(drawing, &msdf());
     assert!(file.cells.iter().all(|&word| word == 0) && file.tiles.is_empty());
     assert_eq!(file.provenance.unwrap().warnings.len(), 1);
 }
@@ -354,7 +367,7 @@ fn odd_outlines_do_no_harm() {
         items,
         warnings: Vec::new(),
     };
-    let file = bake(drawing, &BakeConfig::default());
+    let file = bake(drawing, &msdf());
     // Only the huge rectangle shows there.
     let evaluator = Evaluator { file: &file };
     let c = evaluator.point([0.7, 0.7]);
@@ -388,7 +401,7 @@ fn corpus_files_are_listed_right() {
     let config = BakeConfig {
         msdf_size: 256,
         mip0_size: 64,
-        ..BakeConfig::default()
+        ..msdf()
     };
     for path in names.iter().step_by(every) {
         let svg = std::fs::read(path).unwrap();

@@ -39,7 +39,7 @@ pub(crate) fn assemble(
         .map_or(config.mip0_size, |image| image.size[0].max(image.size[1]));
     let verdicts = judge(&drawing, config, mip0_size);
     let lattice = if all_curves(&drawing, &verdicts) {
-        Lattice::for_curves(&drawing, config.msdf_size, mip0_size)
+        Lattice::for_curves(drawing.canvas_size, config.msdf_size, mip0_size)
     } else {
         Lattice::new(drawing.canvas_size, config.msdf_size)
     };

@@ -10,7 +10,7 @@
 use std::time::Instant;
 
 use crate::{
-    config::{BakeConfig, Stage},
+    config::{BakeConfig, Mode, Stage},
     encode::assemble,
     grid::Lattice,
     testing::{Evaluator, Random, corpus_file, drawing_of, paint_exactly, psnr, render, write_png},
@@ -20,7 +20,10 @@ use crate::{
 #[ignore = "prints measurements"]
 fn measure_tiger() {
     let svg = corpus_file("paper5/5_tiger__svgpan__tiger.svg").unwrap();
-    let config = BakeConfig::default();
+    let config = BakeConfig {
+        mode: Mode::Msdf,
+        ..BakeConfig::default()
+    };
     let drawing = drawing_of(&svg, &config);
     let size = [512, 512];
     let exact = paint_exactly(&drawing.items, drawing.canvas_size);
@@ -31,6 +34,7 @@ fn measure_tiger() {
     println!("exact 16 spp: {:.2} dB", psnr(&truth, &sampled));
     for msdf_size in [512, 1024] {
         let config = BakeConfig {
+            mode: Mode::Msdf,
             msdf_size,
             ..BakeConfig::default()
         };
@@ -100,6 +104,7 @@ fn measure_tiger() {
 #[ignore = "prints measurements"]
 fn measure_against_fdsm() {
     let config = BakeConfig {
+        mode: Mode::Msdf,
         msdf_size: 1024,
         ..BakeConfig::default()
     };
@@ -114,7 +119,10 @@ fn measure_against_fdsm() {
     for index in (0..300).step_by(25) {
         let mut drawing = drawing_of(&svg, &config);
         drawing.items = vec![drawing.items.swap_remove(index)];
-        let placed = crate::placed::place(&drawing, &lattice);
+        let placed = {
+            let forced = crate::judge::Verdict::forced(crate::judge::Coverage::Msdf);
+            crate::placed::place(&drawing, &lattice, &[forced])
+        };
         let area = placed[0].bounds();
         let contours: Vec<fdsm::shape::Contour> =
             crate::msdf::contours_for_fdsm(&placed[0].outline);
