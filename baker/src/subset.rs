@@ -372,7 +372,10 @@ mod tests {
             let config = BakeConfig::default();
             let drawing = drawing_of(&svg, &config);
             let lattice = Lattice::new(drawing.canvas_size, config.msdf_size);
-            let items = place(&drawing, &lattice);
+            let items = {
+                let forced = crate::judge::Verdict::forced(crate::judge::Coverage::Msdf);
+                place(&drawing, &lattice, &vec![forced; drawing.items.len()])
+            };
             let reach = f64::from(config.distance_range_texels);
             check(&items, &pack(&items, everywhere, reach), reach);
         }
