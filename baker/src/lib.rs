@@ -23,6 +23,8 @@ mod classify;
 mod color;
 mod config;
 mod cover;
+#[cfg(test)]
+mod curve_cells_tests;
 mod curves;
 mod drawing;
 mod encode;

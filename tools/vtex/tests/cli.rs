@@ -239,9 +239,9 @@ fn usage_errors_are_1() {
     );
     bench.fails(&["render", "square.svg", "-o", "x.jpg"], 1, ".exr");
     bench.fails(
-        &["bake", "square.svg", "-o", "x", "--mode", "curves"],
-        5,
-        "curves",
+        &["bake", "square.svg", "-o", "x", "--error", "0"],
+        1,
+        "error bound",
     );
     let output = bench.run(&["--help"]);
     assert_eq!(code(&output), 0);
@@ -359,12 +359,12 @@ fn info_preview_extract_and_compare_tell_what_is_there() {
     bench.bake_square();
     let info = json(&bench.run(&["info", "square.vtex", "--format", "json"]));
     assert_eq!(info["shapes"][0]["element"], "square");
-    assert_eq!(info["layers"][0]["shapes"], serde_json::json!([0]));
+    assert_eq!(info["shapes"][0]["coverage"], "curves");
     assert_eq!(info["warnings"], serde_json::json!([]));
     let text = bench.run(&["info", "square.vtex"]);
     let text = String::from_utf8_lossy(&text.stdout);
     assert!(
-        text.contains("1 shapes in painter's order") && text.contains("TILE"),
+        text.contains("1 shapes in painter's order") && text.contains("CURV"),
         "{text}"
     );
 
@@ -389,8 +389,10 @@ fn info_preview_extract_and_compare_tell_what_is_there() {
     assert_eq!(pixels[(3 * 8) * 4..][..4], [0, 0, 0, 0]);
     assert_eq!(pixels[(3 * 8 + 3) * 4..][..4], [0xd0, 0x30, 0x20, 0xff]);
 
+    let tiles = ["bake", "square.svg", "-o", "tiles.vtex", "--mode", "msdf"];
+    assert_eq!(code(&bench.run(&tiles)), 0);
     assert_eq!(
-        code(&bench.run(&["extract", "square.vtex", "-o", "parts"])),
+        code(&bench.run(&["extract", "tiles.vtex", "-o", "parts"])),
         0
     );
     for name in [

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 use vtex_format::{
-    COVERAGE_IMAGE, CellWord, Directory, Features, Limits, PaintRecord, ShapeRecord, VtexFile,
-    Warning, directory,
+    COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CellWord, Directory, Features, Limits,
+    PaintRecord, ShapeRecord, VtexFile, Warning, directory,
 };
 
 use crate::args::Info;
@@ -140,23 +140,46 @@ fn json(file: &VtexFile, directory: &Directory) -> Value {
 
 fn shape_json(file: &VtexFile, index: usize, shape: &ShapeRecord) -> Value {
     let report = file.provenance.as_ref().and_then(|p| p.shapes.get(index));
-    let place = if shape.coverage == COVERAGE_IMAGE {
-        "image"
-    } else {
-        "layer"
+    let place = match shape.coverage {
+        COVERAGE_IMAGE => json!({"image": shape.layer_or_image}),
+        COVERAGE_MSDF => json!({"layer": shape.layer_or_image}),
+        _ => json!({}),
     };
-    json!({
+    let mut record = json!({
+        "coverage": coverage_name(shape.coverage),
         "element": report.map(|r| &r.element), "source": report.map(|r| &r.source),
-        "note": report.map(|r| &r.note), place: shape.layer_or_image,
+        "note": report.map(|r| &r.note),
         "bounds_uv": shape.bounds_uv, "segments": shape.segment_count,
         "color": file.paints.get(shape.paint as usize).map(|paint| paint.color),
-    })
+    });
+    if let (Value::Object(record), Value::Object(place)) = (&mut record, place) {
+        record.extend(place);
+    }
+    record
+}
+
+fn coverage_name(coverage: u32) -> &'static str {
+    match coverage {
+        COVERAGE_MSDF => "msdf",
+        COVERAGE_CURVES => "curves",
+        _ => "image",
+    }
+}
+
+/// How many shapes there are of each kind of coverage.
+fn coverage_counts(file: &VtexFile) -> String {
+    let counts = [COVERAGE_MSDF, COVERAGE_CURVES, COVERAGE_IMAGE].map(|coverage| {
+        let shapes = file.shapes.iter();
+        let count = shapes.filter(|shape| shape.coverage == coverage).count();
+        format!("{count} {}", coverage_name(coverage))
+    });
+    counts.join(", ")
 }
 
 /// Shapes of a layer by their place in the painter's order.
 fn members(file: &VtexFile, layer: u32) -> Vec<usize> {
     let in_layer =
-        |shape: &ShapeRecord| shape.coverage != COVERAGE_IMAGE && shape.layer_or_image == layer;
+        |shape: &ShapeRecord| shape.coverage == COVERAGE_MSDF && shape.layer_or_image == layer;
     let shapes = file.shapes.iter().enumerate();
     shapes
         .filter(|(_, shape)| in_layer(shape))
@@ -332,12 +355,14 @@ fn shapes(out: &mut String, file: &VtexFile, shown: usize) -> std::fmt::Result {
     let count = file.shapes.len();
     writeln!(
         out,
-        "\n{count} shapes in painter's order\n{shape:>5} {layer:>7} {segments:>9}  {colour:9}  {element}"
+        "\n{count} shapes in painter's order: {}\n{shape:>5} {layer:>7} {segments:>9}  {colour:9}  {element}",
+        coverage_counts(file)
     )?;
     for (index, shape) in file.shapes.iter().enumerate().take(shown) {
         let report = file.provenance.as_ref().and_then(|p| p.shapes.get(index));
         let place = match shape.coverage {
             COVERAGE_IMAGE => format!("image {}", shape.layer_or_image),
+            COVERAGE_CURVES => "curves".to_owned(),
             _ => shape.layer_or_image.to_string(),
         };
         let colour = match file.paints.get(shape.paint as usize) {
