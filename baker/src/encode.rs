@@ -109,6 +109,7 @@ pub(crate) fn assemble(
         layers,
         cells: lists.words,
         entries: lists.entries,
+        curves: Vec::new(),
         tiles,
         provenance: Some(provenance(&drawing, &placed, config, source_hash, warnings)),
         images: images(drawing, mips),
@@ -266,6 +267,7 @@ fn meta(
             mask: config.mask,
             outline,
         },
+        curve_lattice: None,
     }
 }
 

@@ -22,6 +22,8 @@ mod cells_tests;
 mod classify;
 mod color;
 mod config;
+#[cfg_attr(not(test), expect(dead_code, reason = "cells do not use it yet"))]
+mod curves;
 mod drawing;
 mod encode;
 #[cfg(test)]

@@ -355,6 +355,7 @@ mod tests {
 
     /// Disjoint and in order on real drawings, and as few layers as the longest chain allows.
     #[test]
+    #[expect(clippy::print_stdout, reason = "says when there is no corpus")]
     fn corpus_ranks_are_the_longest_chains() {
         let everywhere = Rect::new(-1e7, -1e7, 1e7, 1e7);
         for name in [

@@ -60,7 +60,7 @@ impl CellWord {
     }
 }
 
-/// How an entry covers its cell. Numbers are stable; 2 is kept for curve cells.
+/// How an entry covers its cell. Numbers are stable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub enum EntryKind {
@@ -68,6 +68,8 @@ pub enum EntryKind {
     Full = 0,
     /// Coverage from the MSDF tile named by the next word.
     Msdf = 1,
+    /// Coverage from the exact outline in the curve record named by the next word.
+    Curves = 2,
     /// A raster image; coverage and colour are its texels.
     Image = 3,
 }
@@ -81,7 +83,8 @@ pub enum EntryKind {
 /// | 26 | opaque: where coverage is 1 nothing behind shows |
 /// | 25..0 | paint index, or image index for [`EntryKind::Image`] |
 ///
-/// The second word is the tile index for [`EntryKind::Msdf`] and 0 otherwise.
+/// The second word is the tile index for [`EntryKind::Msdf`], for [`EntryKind::Curves`] the word
+/// offset of the record in the curve section, and 0 otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Entry {
     /// How it covers.
@@ -92,7 +95,8 @@ pub struct Entry {
     pub opaque: bool,
     /// Paint index, or image index for [`EntryKind::Image`].
     pub index: u32,
-    /// Tile index for [`EntryKind::Msdf`], 0 otherwise.
+    /// Tile index for [`EntryKind::Msdf`], word offset of its record for [`EntryKind::Curves`], 0
+    /// otherwise.
     pub data: u32,
 }
 
@@ -110,6 +114,7 @@ impl Entry {
         let kind = match head >> KIND_SHIFT {
             0 if data == 0 => EntryKind::Full,
             1 => EntryKind::Msdf,
+            2 => EntryKind::Curves,
             3 if data == 0 => EntryKind::Image,
             _ => return None,
         };

@@ -21,6 +21,8 @@ pub struct VtexFile {
     pub cells: Vec<u32>,
     /// The cells' lists: [`crate::Entry`].
     pub entries: Vec<u32>,
+    /// Curve records one after the other: [`crate::CurveHeader`].
+    pub curves: Vec<u32>,
     /// MSDF tiles, layer by layer: [`LayerRecord`].
     pub tiles: Vec<u8>,
     /// Raster images; with [`crate::Features::MIPS`] the first is the canvas itself.

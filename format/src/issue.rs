@@ -164,6 +164,8 @@ issue_table! {
     SMOOTHING = 3019 Malformed "the smoothing is not in (0, 0.5]";
     OUTLINE_WIDTH = 3020 Malformed "the outline is not between 0 and half the distance range";
     OUTLINE_PAINT = 3021 Malformed "the outline's paint does not exist";
+    CURVE_LATTICE = 3022 Malformed "a box of the curve lattice is empty or exceeds 16 bits";
+    CURVE_LATTICE_USE = 3023 Malformed "there is a curve lattice without curve records, or records without a lattice";
     SPEC_LENGTH = 3030 Malformed "SPEC is not 32 bytes";
     SPEC_ABI = 3031 Unsupported "the shader key is of another ABI";
     SPEC_FEATURES = 3032 Unsupported "the shader key has unknown features";
@@ -205,6 +207,8 @@ issue_table! {
     ENTRY_TILE = 5013 Malformed "the tile of an entry does not exist";
     ENTRY_IMAGE = 5014 Malformed "the image of an entry does not exist";
     ENTRY_OPAQUE = 5015 Malformed "an entry is called opaque and its paint or image is not";
+    ENTRY_CURVES = 5016 Malformed "the curve record of an entry does not exist or reaches beyond its section";
+    CURVE_HEADER = 5020 Malformed "the header of a curve record has no meaning";
 
     TILE_PARTS = 6001 Malformed "the layer ranges of TILE do not follow each other to the last layer";
     TILE_BYTES = 6002 Malformed "the tiles are not as many bytes as the layers say";

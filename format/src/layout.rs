@@ -69,6 +69,9 @@ pub(crate) mod meta {
     pub(crate) const SMOOTHING: u64 = 76;
     pub(crate) const OUTLINE_WIDTH: u64 = 82;
     pub(crate) const OUTLINE_PAINT: u64 = 86;
+    /// Of the lattice without an outline; an outline moves it back by its own size.
+    pub(crate) const CURVE_LATTICE: u64 = 83;
+    pub(crate) const OUTLINE_BYTES: u64 = 8;
 }
 
 const _: () = {

@@ -31,6 +31,7 @@
 //!         distance_range_texels: 4.0,
 //!         max_zoom: 64.0,
 //!         sampler: SamplerSettings::default(),
+//!         curve_lattice: None,
 //!     },
 //!     spec: bytemuck::Zeroable::zeroed(),
 //!     shader: ShaderBlob {
@@ -43,6 +44,7 @@
 //!     layers: Vec::new(),
 //!     cells: vec![red.encode().expect("0 fits 30 bits")],
 //!     entries: Vec::new(),
+//!     curves: Vec::new(),
 //!     tiles: Vec::new(),
 //!     images: Vec::new(),
 //!     provenance: None,
@@ -61,6 +63,7 @@
 mod cell;
 mod check;
 mod codec;
+mod curve;
 mod directory;
 mod error;
 mod file;
@@ -84,6 +87,10 @@ mod tile;
 mod write;
 
 pub use cell::{CELL_TAG_SHIFT, CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL};
+pub use curve::{
+    CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CurveHeader, CurveLattice,
+    MAX_CURVE_SEGMENTS, MAX_CURVE_STEPS,
+};
 pub use directory::{Directory, directory};
 pub use error::{ReadError, WriteError};
 pub use file::VtexFile;
@@ -100,6 +107,8 @@ pub use prov::{Provenance, ShapeReport, Warning, WarningCode};
 pub use read::validate;
 pub use section::{Codec, SectionInfo};
 pub use shader::ShaderBlob;
-pub use shape::{COVERAGE_IMAGE, COVERAGE_MSDF, FILL_EVEN_ODD, FILL_NON_ZERO, ShapeRecord};
-pub use spec::{Features, SHADER_ABI, SpecKey};
+pub use shape::{
+    COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, FILL_EVEN_ODD, FILL_NON_ZERO, ShapeRecord,
+};
+pub use spec::{Features, SHADER_ABI, SpecKey, SpecParts};
 pub use tag::Tag;

@@ -9,7 +9,7 @@
 pub struct Limits {
     /// All sections together.
     pub total_raw_bytes: u64,
-    /// `META`; 90 bytes today.
+    /// `META`; at most 99 bytes today.
     pub meta_bytes: u64,
     /// `SHDR`: text and SPIR-V.
     pub shader_bytes: u64,

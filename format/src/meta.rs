@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::CurveLattice;
+
 /// Most cells along a side of the grid: beyond it f32 places a point in a cell to less than ten
 /// bits. A larger grid is malformed.
 pub const MAX_GRID_SIDE: u32 = 16_384;
@@ -21,6 +23,8 @@ pub struct Meta {
     pub max_zoom: f32,
     /// How lookups address and filter unless the caller overrides it.
     pub sampler: SamplerSettings,
+    /// Lattice of the curve records; `None` without any.
+    pub curve_lattice: Option<CurveLattice>,
 }
 
 /// The uniform cell grid. Cells are square in user units.
@@ -54,7 +58,7 @@ pub struct SamplerSettings {
     pub outline: Option<Outline>,
 }
 
-/// Eq. 2's outline around every MSDF shape.
+/// Eq. 2's outline around every shape that MSDF tiles or curves cover.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Outline {
     /// How far it reaches outside the shape, in texels; less than half the distance range.

@@ -48,6 +48,7 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
     let images = loader.records(Tag::IMAG);
     let cells = loader.cells(&meta);
     let entries = loader.records(Tag::ENTR);
+    let curves = loader.records(Tag::CURV);
     let tiles = layers
         .as_deref()
         .and_then(|layers| loader.tiles(&meta, layers));
@@ -61,6 +62,7 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
         layers: layers?,
         cells: cells?,
         entries: entries?,
+        curves: curves?,
         tiles: tiles?,
         images: images?,
         provenance: provenance?,

@@ -4,6 +4,8 @@ use bytemuck::{Pod, Zeroable};
 
 /// [`ShapeRecord::coverage`]: MSDF tiles of its layer.
 pub const COVERAGE_MSDF: u32 = 1;
+/// [`ShapeRecord::coverage`]: curve records.
+pub const COVERAGE_CURVES: u32 = 2;
 /// [`ShapeRecord::coverage`]: a raster image.
 pub const COVERAGE_IMAGE: u32 = 3;
 /// [`ShapeRecord::fill_rule`]: inside where the winding is not zero (SVG 2 sec. 13.3.2).
@@ -15,11 +17,11 @@ pub const FILL_EVEN_ODD: u32 = 1;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct ShapeRecord {
-    /// [`COVERAGE_MSDF`] or [`COVERAGE_IMAGE`].
+    /// [`COVERAGE_MSDF`], [`COVERAGE_CURVES`] or [`COVERAGE_IMAGE`].
     pub coverage: u32,
     /// [`FILL_NON_ZERO`] or [`FILL_EVEN_ODD`].
     pub fill_rule: u32,
-    /// Index of the layer it is packed into, or of its image.
+    /// Index of the layer it is packed into, or of its image; 0 for curves.
     pub layer_or_image: u32,
     /// Index into the paints; 0 for an image.
     pub paint: u32,

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use crate::check::list_lengths;
-use crate::{CellWord, Entry, EntryKind, SamplerSettings, VtexFile};
+use crate::{CellWord, Entry, EntryKind, PaintRecord, SamplerSettings, VtexFile};
 
 /// Version of the packed words and bindings shared by shaders and loaders. A file whose shader
 /// blob carries another ABI is evaluated with the runtime's own text.
@@ -50,66 +50,129 @@ impl Features {
     pub const OUTLINE: u32 = 1 << 6;
     /// The texture matrix is not the identity.
     pub const TEXTURE_MATRIX: u32 = 1 << 7;
+    /// Some entry is a curve record.
+    pub const CURVES: u32 = 1 << 8;
     /// All bits this version knows.
-    pub const ALL: u32 = (1 << 8) - 1;
+    pub const ALL: u32 = (1 << 9) - 1;
+}
+
+/// The parts of a file that decide what its shader contains.
+#[derive(Clone, Copy, Debug)]
+pub struct SpecParts<'a> {
+    /// Settings of the lookup.
+    pub sampler: &'a SamplerSettings,
+    /// As [`crate::Grid::texels_per_cell`].
+    pub texels_per_cell: u32,
+    /// As [`VtexFile::paints`].
+    pub paints: &'a [PaintRecord],
+    /// As [`VtexFile::cells`].
+    pub cells: &'a [u32],
+    /// As [`VtexFile::entries`].
+    pub entries: &'a [u32],
+    /// Whether image 0 is the canvas' mip chain.
+    pub canvas_mips: bool,
+}
+
+impl<'a> SpecParts<'a> {
+    fn of(file: &'a VtexFile) -> Self {
+        Self {
+            sampler: &file.meta.sampler,
+            texels_per_cell: file.meta.grid.texels_per_cell,
+            paints: &file.paints,
+            cells: &file.cells,
+            entries: &file.entries,
+            canvas_mips: file.spec.features & Features::MIPS != 0,
+        }
+    }
+
+    fn is_translucent(&self, paint: u32) -> bool {
+        let paint = self.paints.get(paint as usize);
+        paint.is_some_and(|paint| !paint.is_opaque())
+    }
+
+    /// Offsets of the lists that cells name, in words.
+    fn lists(&self) -> impl Iterator<Item = u32> {
+        let words = self.cells.iter();
+        words.filter_map(|&word| match CellWord::decode(word) {
+            Some(CellWord::List { offset_words }) => Some(offset_words),
+            _ => None,
+        })
+    }
+
+    /// The features that content and settings need.
+    fn features(&self) -> u32 {
+        let flag = |needed: bool, feature| if needed { feature } else { 0 };
+        let identity = SamplerSettings::default().texture_matrix;
+        let moved = self.sampler.texture_matrix != identity;
+        let features = flag(self.canvas_mips, Features::MIPS)
+            | flag(self.sampler.mask, Features::MASK)
+            | flag(moved, Features::TEXTURE_MATRIX);
+        if self.lists().next().is_none() {
+            return features;
+        }
+        let (pairs, _) = self.entries.as_chunks();
+        let entries = pairs.iter().filter_map(|&words| Entry::decode(words));
+        entries.fold(features | Features::LISTS, |features, entry| {
+            features | self.entry_features(entry)
+        })
+    }
+
+    fn entry_features(&self, entry: Entry) -> u32 {
+        let kind = match entry.kind {
+            EntryKind::Image => return Features::IMAGES | Features::TRANSLUCENT,
+            EntryKind::Full => 0,
+            EntryKind::Msdf => Features::MSDF,
+            EntryKind::Curves => Features::CURVES,
+        };
+        // Eq. 2 draws around outlines only, not around cells.
+        let outline = self.sampler.outline.filter(|_| kind != 0);
+        let translucent = self.is_translucent(entry.index)
+            || outline.is_some_and(|outline| self.is_translucent(outline.paint));
+        kind | if translucent {
+            Features::TRANSLUCENT
+        } else {
+            0
+        } | if outline.is_some() {
+            Features::OUTLINE
+        } else {
+            0
+        }
+    }
+
+    /// Length of the longest list that a cell names; lists that do not end are passed over.
+    fn longest_list(&self) -> u32 {
+        let lengths = list_lengths(self.entries);
+        let lists = self
+            .lists()
+            .filter_map(|offset_words| lengths.get(offset_words as usize / 2));
+        lists.copied().flatten().max().unwrap_or(0)
+    }
 }
 
 impl SpecKey {
     /// The smallest key for a file's content and settings; only [`Features::MIPS`], which content
     /// alone does not show, is taken from the file's own key. Bakers end with this.
     pub fn for_file(file: &VtexFile) -> Self {
-        let lengths = list_lengths(&file.entries);
-        let lists = file
-            .cells
-            .iter()
-            .filter_map(|&word| match CellWord::decode(word) {
-                Some(CellWord::List { offset_words }) => lengths.get(offset_words as usize / 2),
-                _ => None,
-            });
-        let [address_u, address_v] = file.meta.sampler.address.map(|mode| mode as u32);
+        Self::for_parts(&SpecParts::of(file))
+    }
+
+    /// The smallest key of a file that is not put together yet. Words that no rule of the format
+    /// allows are passed over.
+    pub fn for_parts(parts: &SpecParts<'_>) -> Self {
+        let [address_u, address_v] = parts.sampler.address.map(|mode| mode as u32);
         Self {
             abi: SHADER_ABI,
-            features: Self::features_of(file) | (file.spec.features & Features::MIPS),
+            features: parts.features(),
             address_u,
             address_v,
-            texels_per_cell: file.meta.grid.texels_per_cell,
-            max_entries: lists.copied().flatten().max().unwrap_or(0),
+            texels_per_cell: parts.texels_per_cell,
+            max_entries: parts.longest_list(),
             reserved: [0; 2],
         }
     }
 
-    /// The features that content and settings need.
+    /// The features that content and settings of a file need, besides [`Features::MIPS`].
     pub(crate) fn features_of(file: &VtexFile) -> u32 {
-        let sampler = &file.meta.sampler;
-        let mut features = 0;
-        let mut need = |needed: bool, feature| features |= if needed { feature } else { 0 };
-        need(sampler.mask, Features::MASK);
-        let identity = SamplerSettings::default().texture_matrix;
-        need(sampler.texture_matrix != identity, Features::TEXTURE_MATRIX);
-        let is_list = |&word| matches!(CellWord::decode(word), Some(CellWord::List { .. }));
-        if !file.cells.iter().any(is_list) {
-            return features;
-        }
-        need(true, Features::LISTS);
-        let is_translucent = |index: u32| {
-            let paint = file.paints.get(index as usize);
-            paint.is_some_and(|paint| !paint.is_opaque())
-        };
-        let (pairs, _) = file.entries.as_chunks();
-        for entry in pairs.iter().filter_map(|&words| Entry::decode(words)) {
-            let is_image = entry.kind == EntryKind::Image;
-            need(is_image, Features::IMAGES | Features::TRANSLUCENT);
-            need(
-                !is_image && is_translucent(entry.index),
-                Features::TRANSLUCENT,
-            );
-            // Eq. 2 draws around MSDF shapes only.
-            let outline = sampler.outline.filter(|_| entry.kind == EntryKind::Msdf);
-            need(entry.kind == EntryKind::Msdf, Features::MSDF);
-            need(outline.is_some(), Features::OUTLINE);
-            let translucent = outline.is_some_and(|outline| is_translucent(outline.paint));
-            need(translucent, Features::TRANSLUCENT);
-        }
-        features
+        SpecParts::of(file).features() & !Features::MIPS
     }
 }

@@ -31,6 +31,8 @@ impl Tag {
     pub const CELL: Self = Self(*b"CELL");
     /// [`crate::Entry`]s, two words each.
     pub const ENTR: Self = Self(*b"ENTR");
+    /// Curve records.
+    pub const CURV: Self = Self(*b"CURV");
     /// MSDF tiles of a run of layers.
     pub const TILE: Self = Self(*b"TILE");
     /// Texels of one level of one image.
@@ -80,7 +82,7 @@ pub(crate) struct SectionKind {
 }
 
 /// All sections of this version in file order: what bounds the others comes first, texels last.
-pub(crate) const SECTIONS: [SectionKind; 12] = [
+pub(crate) const SECTIONS: [SectionKind; 13] = [
     section(Tag::META, true, true, false),
     section(Tag::SPEC, true, true, false),
     section(Tag::SHDR, false, true, false),
@@ -91,6 +93,7 @@ pub(crate) const SECTIONS: [SectionKind; 12] = [
     section(Tag::IMAG, true, false, false),
     section(Tag::CELL, true, true, false),
     section(Tag::ENTR, true, false, false),
+    section(Tag::CURV, true, false, false),
     section(Tag::TILE, true, false, true),
     section(Tag::MIPS, true, false, true),
 ];

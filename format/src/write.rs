@@ -93,6 +93,7 @@ impl VtexFile {
             Part::whole(Tag::IMAG, words_to_little_endian(&records).into_owned()),
             Part::whole(Tag::CELL, words_to_little_endian(&self.cells)),
             Part::whole(Tag::ENTR, words_to_little_endian(&self.entries)),
+            Part::whole(Tag::CURV, words_to_little_endian(&self.curves)),
         ];
         parts.extend(self.tile_parts());
         parts.extend(self.mip_parts());

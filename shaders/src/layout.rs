@@ -70,6 +70,12 @@ mod header = "HEADER" {
     IMAGE_COUNT = 26;
     /// Bits of [`vtex_format::Features`].
     FEATURES = 27;
+    /// Float: units of the curve lattice along a cell.
+    CURVE_UNITS = 28;
+    /// Float: units by which a curve record's box is wider than its cell, on each side.
+    CURVE_MARGIN = 29;
+    /// First word of the curve records.
+    CURVES = 30;
     /// Words of the header; the rest are zero.
     WORDS = 32;
 }
@@ -134,8 +140,21 @@ mod entry = "ENTRY" {
     FULL = vtex_format::EntryKind::Full as u32;
     /// [`vtex_format::EntryKind::Msdf`].
     MSDF = vtex_format::EntryKind::Msdf as u32;
+    /// [`vtex_format::EntryKind::Curves`].
+    CURVES = vtex_format::EntryKind::Curves as u32;
     /// [`vtex_format::EntryKind::Image`].
     IMAGE = vtex_format::EntryKind::Image as u32;
+}
+
+/// Parts of a curve record's header: [`vtex_format::CurveHeader`].
+mod curve = "CURVE" {
+    /// Of a count of segments.
+    COUNT_MASK = vtex_format::MAX_CURVE_SEGMENTS;
+    /// Of the count of steps.
+    STEP_MASK = vtex_format::MAX_CURVE_STEPS;
+    /// Newton steps towards the nearest point of a quadratic. With the start at the point's own
+    /// parameter the error is below a hundredth of a unit after three where it matters.
+    NEWTON_STEPS = 4;
 }
 
 /// Words of a paint, by index.

@@ -6,7 +6,7 @@ use vtex_format::{
     VtexFile,
 };
 
-use crate::cpu::color;
+use crate::cpu::{color, to_f32};
 use crate::layout::{FilterMode, header, image};
 use crate::spec::spec_key_with;
 
@@ -42,7 +42,8 @@ impl PackOptions {
 /// one that the format's validator finds nothing in; another gives a wrong picture, never a panic.
 pub fn pack(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
     let mut words = header_words(file, options, &spec_key_with(file, options));
-    words.reserve(file.cells.len() + file.entries.len() + file.tiles.len() / 4);
+    let counts = [&file.cells, &file.entries, &file.curves].map(Vec::len);
+    words.reserve(counts.iter().sum::<usize>() + file.tiles.len() / 4);
     section(&mut words, header::CELLS, &file.cells);
     section(&mut words, header::ENTRIES, &file.entries);
     let paints: Vec<u32> = file.paints.iter().flat_map(paint_words).collect();
@@ -52,6 +53,7 @@ pub fn pack(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
         .map(|t| u32::from_le_bytes([t[0], t[1], t[2], t[3]]))
         .collect();
     section(&mut words, header::TILES, &tiles);
+    section(&mut words, header::CURVES, &file.curves);
     image_words(&mut words, &file.images);
     words
 }
@@ -88,6 +90,13 @@ fn header_words(file: &VtexFile, options: &PackOptions, key: &SpecKey) -> Vec<u3
     if let (Some(outline), true) = (sampler.outline, key.features & Features::OUTLINE != 0) {
         put(header::OUTLINE_WIDTH, &[outline.width_texels.to_bits()]);
         put(header::OUTLINE_PAINT, &[outline.paint]);
+    }
+    if let Some(lattice) = file.meta.curve_lattice {
+        let units = [lattice.units_per_cell, lattice.margin_units];
+        put(
+            header::CURVE_UNITS,
+            &units.map(|units| to_f32(units).to_bits()),
+        );
     }
     put(header::FEATURES, &[key.features]);
     words

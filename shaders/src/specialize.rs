@@ -121,10 +121,17 @@ fn slots(features: u32) -> LinkContext {
     };
     // A mask composites alpha alone, which any order of entries gives.
     let composites = has(Features::TRANSLUCENT) && !has(Features::MASK);
-    let coverage = match (has(Features::MSDF), has(Features::OUTLINE)) {
+    let edges = has(Features::MSDF) || has(Features::CURVES);
+    let coverage = match (edges, has(Features::OUTLINE)) {
         (false, _) => "vtex/coverage_full",
-        (true, false) => "vtex/coverage_msdf",
+        (true, false) => "vtex/coverage_edge",
         (true, true) => "vtex/coverage_outline",
+    };
+    let edge = match (has(Features::MSDF), has(Features::CURVES)) {
+        (true, true) => "vtex/edge_any",
+        (false, true) => "vtex/edge_curves",
+        // Without edges nothing imports it.
+        (_, false) => "vtex/edge_msdf",
     };
     let composite = match composites {
         true => "vtex/composite_translucent",
@@ -176,6 +183,7 @@ fn slots(features: u32) -> LinkContext {
             pick(Features::OUTLINE, "vtex/over_outline", "vtex/over_shape"),
         ),
         ("vtex/coverage", coverage),
+        ("vtex/edge", edge),
         ("vtex/composite", composite),
     ]
     .into_iter()

@@ -1,8 +1,9 @@
 //! Random textures: every feature a packed texture can have, without a baker.
 
 use vtex_format::{
-    AddressMode, CellWord, Entry, EntryKind, Features, Grid, Image, Meta, Outline, PaintRecord,
-    SHADER_ABI, SamplerSettings, ShaderBlob, SpecKey, VtexFile,
+    AddressMode, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CellWord, CurveHeader, CurveLattice, Entry,
+    EntryKind, Features, Grid, Image, Meta, Outline, PaintRecord, SHADER_ABI, SamplerSettings,
+    ShaderBlob, SpecKey, VtexFile,
 };
 
 use crate::random::Random;
@@ -16,6 +17,7 @@ const ADDRESS_MODES: [AddressMode; 4] = [
 const DISTANCE_RANGE_TEXELS: f32 = 4.0;
 const PAINTS: u32 = 12;
 const TILES: u32 = 40;
+const RECORDS: u32 = 40;
 
 /// A texture made of what `features` (bits of [`Features`]) names, else random from `seed`.
 ///
@@ -35,6 +37,7 @@ pub fn random_texture(seed: u64, features: u32) -> VtexFile {
             distance_range_texels: DISTANCE_RANGE_TEXELS,
             max_zoom: 1.0,
             sampler: random_settings(r, features),
+            curve_lattice: None,
         },
         spec: SpecKey {
             abi: SHADER_ABI,
@@ -57,10 +60,12 @@ pub fn random_texture(seed: u64, features: u32) -> VtexFile {
         layers: Vec::new(),
         cells: Vec::new(),
         entries: Vec::new(),
+        curves: Vec::new(),
         tiles: Vec::new(),
         images: Vec::new(),
         provenance: None,
     };
+    let mut records = Vec::new();
     if has(Features::MIPS) {
         file.images
             .push(random_image(r, [0.0, 0.0, 1.0, 1.0], [61, 33]));
@@ -71,13 +76,19 @@ pub fn random_texture(seed: u64, features: u32) -> VtexFile {
         file.images
             .push(random_image(r, [0.4, -0.3, 1.4, 0.6], [64, 64]));
     }
+    if has(Features::CURVES) {
+        file.meta.curve_lattice = CurveLattice::new(r.between(0.1, 1.0));
+        records = (0..RECORDS)
+            .map(|_| push_random_record(r, &mut file))
+            .collect();
+    }
     if has(Features::MSDF) {
         let side = file.meta.grid.texels_per_cell + 1;
         file.tiles = (0..TILES).flat_map(|_| random_tile(r, side)).collect();
     }
     let [columns, rows] = file.meta.grid.size_cells;
     for _ in 0..columns * rows {
-        let cell = random_cell(r, &mut file, features);
+        let cell = random_cell(r, &mut file, features, &records);
         file.cells.push(cell.encode().expect("small indices"));
     }
     file.spec = vtex_shaders::spec_key(&file);
@@ -167,6 +178,55 @@ fn random_tile(r: &mut Random, side: u32) -> Vec<u8> {
     texels
 }
 
+/// Appends a record of random closed contours of lines and quadratics; returns its place.
+///
+/// # Panics
+/// Never: the contours are short.
+fn push_random_record(r: &mut Random, file: &mut VtexFile) -> u32 {
+    // Lines and quadratics, those that run up, those that run down.
+    let mut runs = [const { Vec::<u32>::new() }; 4];
+    for _ in 0..=r.below(3) {
+        let corners: Vec<[u32; 2]> = (0..3 + r.below(6))
+            .map(|_| [(); 2].map(|()| r.below(1 << 16)))
+            .collect();
+        for (&from, &to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+            let down = to[1] > from[1];
+            let [a, b] = if down { [from, to] } else { [to, from] };
+            let word = |[x, y]: [u32; 2]| x | y << 16;
+            if r.below(2) == 0 {
+                runs[usize::from(down)].extend([word(a), word(b)]);
+            } else {
+                // Between the ends, so that both coordinates are monotone.
+                let between = |i: usize| {
+                    let [low, high] = [a[i].min(b[i]), a[i].max(b[i])];
+                    low + (r.below(high - low + 1))
+                };
+                let control = [0, 1].map(between);
+                runs[2 + usize::from(down)].extend([word(a), word(control), word(b)]);
+            }
+        }
+    }
+    let steps: Vec<u32> = (0..r.below(3))
+        .map(|_| r.below(1 << 16) | (r.below(2) * 2).wrapping_sub(1) << 16)
+        .collect();
+    let count = |words: usize| u32::try_from(words).expect("short contours");
+    let header = CurveHeader {
+        line_count: count(runs[0].len() + runs[1].len()) / CURVE_LINE_WORDS,
+        down_line_count: count(runs[1].len()) / CURVE_LINE_WORDS,
+        quad_count: count(runs[2].len() + runs[3].len()) / CURVE_QUAD_WORDS,
+        down_quad_count: count(runs[3].len()) / CURVE_QUAD_WORDS,
+        step_count: count(steps.len()),
+        even_odd: r.below(2) == 0,
+        base_winding: [0, 0, 1, -1][r.below(4) as usize],
+    };
+    let place = count(file.curves.len());
+    file.curves.extend(header.encode().expect("short contours"));
+    let [up_lines, down_lines, up_quads, down_quads] = runs;
+    let parts = [steps, down_lines, up_lines, down_quads, up_quads];
+    file.curves.extend(parts.concat());
+    place
+}
+
 /// Premultiplied noise with a full chain of its own noise: levels need not be averages here.
 fn random_image(r: &mut Random, rect_uv: [f32; 4], size: [u32; 2]) -> Image {
     let mips = (0..Image::level_count(size)).map(|level| {
@@ -186,7 +246,7 @@ fn random_image(r: &mut Random, rect_uv: [f32; 4], size: [u32; 2]) -> Image {
     }
 }
 
-fn random_cell(r: &mut Random, file: &mut VtexFile, features: u32) -> CellWord {
+fn random_cell(r: &mut Random, file: &mut VtexFile, features: u32, records: &[u32]) -> CellWord {
     match r.below(6) {
         0 => return CellWord::Empty,
         1 => {
@@ -205,26 +265,37 @@ fn random_cell(r: &mut Random, file: &mut VtexFile, features: u32) -> CellWord {
         1 + r.below(7)
     };
     for i in 1..=length {
-        let entry = random_entry(r, file, features, i == length);
+        let entry = random_entry(r, file, features, records, i == length);
         file.entries.extend(entry.encode().expect("small indices"));
     }
     CellWord::List { offset_words }
 }
 
-fn random_entry(r: &mut Random, file: &VtexFile, features: u32, last: bool) -> Entry {
+fn random_entry(
+    r: &mut Random,
+    file: &VtexFile,
+    features: u32,
+    records: &[u32],
+    last: bool,
+) -> Entry {
     let has = |feature| features & feature != 0;
     let kinds = [
-        (EntryKind::Full, !has(Features::MSDF) || last),
+        (
+            EntryKind::Full,
+            !has(Features::MSDF) && !has(Features::CURVES) || last,
+        ),
         (EntryKind::Image, has(Features::IMAGES)),
         (EntryKind::Msdf, has(Features::MSDF)),
         (EntryKind::Msdf, has(Features::MSDF)),
+        (EntryKind::Curves, has(Features::CURVES)),
+        (EntryKind::Curves, has(Features::CURVES)),
     ];
     let possible: Vec<EntryKind> = kinds
         .iter()
         .filter(|(_, possible)| *possible)
         .map(|(kind, _)| *kind)
         .collect();
-    let kind = possible[r.below(u32::try_from(possible.len()).expect("four")) as usize];
+    let kind = possible[r.below(u32::try_from(possible.len()).expect("six")) as usize];
     let patches = u32::try_from(file.images.len()).expect("three");
     let first_patch = u32::from(has(Features::MIPS));
     let index = match kind {
@@ -236,10 +307,10 @@ fn random_entry(r: &mut Random, file: &VtexFile, features: u32, last: bool) -> E
         last,
         opaque: kind != EntryKind::Image && file.paints[index as usize].is_opaque(),
         index,
-        data: if kind == EntryKind::Msdf {
-            r.below(TILES)
-        } else {
-            0
+        data: match kind {
+            EntryKind::Msdf => r.below(TILES),
+            EntryKind::Curves => records[r.below(RECORDS) as usize],
+            EntryKind::Full | EntryKind::Image => 0,
         },
     }
 }

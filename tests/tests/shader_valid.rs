@@ -75,6 +75,15 @@ fn keys_that_no_file_should_have_still_make_a_shader() {
     }
 }
 
+/// Ends of loops: lists, and counts that are masked where they are read.
+const BOUNDS: [&str; 5] = [
+    "VTEX_KEY_MAX_ENTRIES; i += 1u",
+    "i < parts.step_count; i++",
+    "i < parts.line_count; i++",
+    "i < parts.quad_count; i++",
+    "i < VTEX_CURVE_NEWTON_STEPS; i++",
+];
+
 #[test]
 fn loops_are_bounded_by_constants() {
     let key = SpecKey {
@@ -93,12 +102,20 @@ fn loops_are_bounded_by_constants() {
         .collect();
     assert!(!loops.is_empty(), "lists are walked in loops");
     for line in loops {
-        assert!(line.contains("VTEX_KEY_MAX_ENTRIES; i += 1u"), "{line}");
+        let bounded = BOUNDS.iter().any(|bound| line.contains(bound));
+        assert!(bounded, "{line}");
     }
     assert!(
         !text.contains("while ") && !text.contains("loop {"),
         "no other loops"
     );
+    for (part, mask) in [("step", "STEP"), ("line", "COUNT"), ("quad", "COUNT")] {
+        let read = text
+            .lines()
+            .find(|line| line.contains(&format!("parts.{part}_count = ")));
+        let masked = read.is_some_and(|line| line.contains(&format!("& VTEX_CURVE_{mask}_MASK")));
+        assert!(masked, "{part}: {read:?}");
+    }
     assert!(text.contains(&format!(
         "VTEX_KEY_MAX_ENTRIES: u32 = {MAX_ENTRIES_PER_CELL}u;"
     )));

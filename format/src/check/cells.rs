@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 
 use crate::cell::LAST_BIT;
 use crate::issue::{self, Issues};
-use crate::{CellWord, Entry, EntryKind, Image, MAX_ENTRIES_PER_CELL, Tag, VtexFile};
+use crate::{CellWord, CurveHeader, Entry, EntryKind, Image, MAX_ENTRIES_PER_CELL, Tag, VtexFile};
 
 /// What entries may name.
 pub(super) struct Tables {
@@ -50,7 +50,9 @@ pub(super) fn entries(file: &VtexFile, tables: &Tables, issues: &mut Issues) {
         };
         let (kind, count) = match entry.kind {
             EntryKind::Image => (issue::ENTRY_IMAGE, file.images.len()),
-            EntryKind::Full | EntryKind::Msdf => (issue::ENTRY_PAINT, file.paints.len()),
+            EntryKind::Full | EntryKind::Msdf | EntryKind::Curves => {
+                (issue::ENTRY_PAINT, file.paints.len())
+            }
         };
         let place = entry.index as usize;
         if place >= count {
@@ -62,14 +64,41 @@ pub(super) fn entries(file: &VtexFile, tables: &Tables, issues: &mut Issues) {
             let message = format_args!("tile {} of {}", entry.data, tables.tile_count);
             issues.add(issue::ENTRY_TILE, Tag::ENTR, offset + 4, message);
         }
+        if entry.kind == EntryKind::Curves {
+            curve_record(&file.curves, entry.data, offset, issues);
+        }
         let opaque = match entry.kind {
             EntryKind::Image => tables.is_opaque_image(&file.images, place),
-            EntryKind::Full | EntryKind::Msdf => file.paints[place].is_opaque(),
+            EntryKind::Full | EntryKind::Msdf | EntryKind::Curves => file.paints[place].is_opaque(),
         };
         if entry.opaque && !opaque {
             let message = format_args!("{:?} {place}", entry.kind);
             issues.add(issue::ENTRY_OPAQUE, Tag::ENTR, offset, message);
         }
+    }
+}
+
+/// The record at a word offset has a header and lies inside the section, so that an evaluator
+/// reads nothing else. Any words make sound segments.
+fn curve_record(curves: &[u32], at: u32, entry_offset: u64, issues: &mut Issues) {
+    let record = curves.get(at as usize..).unwrap_or(&[]);
+    let length = record.len();
+    let Some(&header) = record.first_chunk() else {
+        let message = format_args!("header at word {at} of {}", curves.len());
+        issues.add(issue::ENTRY_CURVES, Tag::ENTR, entry_offset + 4, message);
+        return;
+    };
+    match CurveHeader::decode(header) {
+        None => {
+            let message = format_args!("words {:#010x} {:#010x}", header[0], header[1]);
+            issues.add(issue::CURVE_HEADER, Tag::CURV, 4 * u64::from(at), message);
+        }
+        Some(header) if header.record_words() as usize > length => {
+            let words = header.record_words();
+            let message = format_args!("{words} words at word {at} of {}", curves.len());
+            issues.add(issue::ENTRY_CURVES, Tag::ENTR, entry_offset + 4, message);
+        }
+        Some(_) => {}
     }
 }
 

@@ -83,7 +83,27 @@ pub(crate) fn meta(meta: &Meta, issues: &mut Issues) -> bool {
         let within = width > 0.0 && width < range / 2.0;
         require(within, issue::OUTLINE_WIDTH, at::OUTLINE_WIDTH, &width);
     }
+    if let Some(lattice) = meta.curve_lattice {
+        let outline = sampler.outline.map_or(0, |_| at::OUTLINE_BYTES);
+        let fits = lattice.units_per_cell >= 1 && lattice.box_units() <= u32::from(u16::MAX);
+        let offset = at::CURVE_LATTICE + outline;
+        require(fits, issue::CURVE_LATTICE, offset, &lattice);
+    }
     sound
+}
+
+/// There is a curve lattice where there are curve records, and only there.
+pub(super) fn curve_lattice(file: &VtexFile, issues: &mut Issues) {
+    if file.meta.curve_lattice.is_some() == file.curves.is_empty() {
+        let (lattice, words) = (file.meta.curve_lattice, file.curves.len());
+        let message = format_args!("{lattice:?} for {words} words of records");
+        issues.add(
+            issue::CURVE_LATTICE_USE,
+            Tag::META,
+            at::CURVE_LATTICE,
+            message,
+        );
+    }
 }
 
 /// The outline's paint exists.

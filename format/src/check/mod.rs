@@ -27,6 +27,7 @@ pub(crate) fn file(file: &VtexFile, issues: &mut Issues) {
 pub(crate) fn content(file: &VtexFile, issues: &mut Issues) {
     shapes::paints(&file.paints, issues);
     meta::outline_paint(file, issues);
+    meta::curve_lattice(file, issues);
     shapes::shapes(file, issues);
     shapes::layers(file, issues);
     images::images(file, issues);

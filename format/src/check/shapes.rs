@@ -2,8 +2,8 @@
 
 use crate::issue::{self, Issues};
 use crate::{
-    COVERAGE_IMAGE, COVERAGE_MSDF, FILL_EVEN_ODD, FILL_NON_ZERO, PAINT_SOLID, PaintRecord,
-    ShapeRecord, Tag, VtexFile,
+    COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, FILL_EVEN_ODD, FILL_NON_ZERO, PAINT_SOLID,
+    PaintRecord, ShapeRecord, Tag, VtexFile,
 };
 
 /// Every paint is a solid colour in range.
@@ -41,6 +41,8 @@ pub(super) fn shapes(file: &VtexFile, issues: &mut Issues) {
         };
         let (targets, paints) = match shape.coverage {
             COVERAGE_MSDF => (file.layers.len(), file.paints.len()),
+            // Curves lie in no layer; theirs is 0.
+            COVERAGE_CURVES => (1, file.paints.len()),
             // An image brings its own colours; its paint is 0.
             COVERAGE_IMAGE => (file.images.len(), 1),
             _ => {

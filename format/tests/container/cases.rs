@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use vtex_format::{
-    Entry, EntryKind, Features, Grid, ISSUES, Image, Issue, LayerRecord, Limits, Outline,
-    ReadError, Tag, VtexFile, validate,
+    CurveLattice, Entry, EntryKind, Features, Grid, ISSUES, Image, Issue, LayerRecord, Limits,
+    Outline, ReadError, Tag, VtexFile, validate,
 };
 
 use crate::forge::{Forged, put_together, seal, take_apart};
@@ -26,8 +26,9 @@ const SHAP: usize = 5;
 const IMAG: usize = 7;
 const CELL: usize = 8;
 const ENTR: usize = 9;
-const TILE: usize = 10;
-const MIPS: usize = 11;
+const CURV: usize = 10;
+const TILE: usize = 11;
+const MIPS: usize = 12;
 
 fn patch(section: &mut Forged, offset: usize, bytes: &[u8]) {
     let mut content = section.content();
@@ -115,6 +116,9 @@ const CONTENT_CASES: &[FileCase] = &[
     (3042, |s| patch(&mut s[SHDR], 16 + 19, &[1])),
     (4001, |s| cut(&mut s[PANT], 4)),
     (4001, |s| cut(&mut s[SHAP], 1)),
+    (4001, |s| cut(&mut s[CURV], 1)),
+    (3023, |s| drop(s.remove(CURV))),
+    (5016, |s| cut(&mut s[CURV], 4)),
     (5001, |s| cut(&mut s[CELL], 4)),
     (5001, |s| patch(&mut s[META], 8, &[3])),
     (6001, |s| s[TILE].parts[2] = 1),
@@ -155,10 +159,16 @@ const VALUE_CASES: &[ValueCase] = &[
     (3020, |f| outline(f).width_texels = 2.0),
     (3020, |f| outline(f).width_texels = f32::NAN),
     (3021, |f| outline(f).paint = 2),
+    (3022, |f| lattice(f).units_per_cell = 0),
+    (3022, |f| lattice(f).margin_units = 32_768),
+    (3022, |f| lattice(f).margin_units = u32::MAX),
+    (3023, |f| f.meta.curve_lattice = None),
+    (3023, |f| f.curves.clear()),
     (3031, |f| f.spec.abi = 2),
     (3032, |f| f.spec.features |= 1 << 31),
     (3033, |f| f.spec.features &= !Features::MSDF),
     (3033, |f| f.spec.features &= !Features::TRANSLUCENT),
+    (3033, |f| f.spec.features &= !Features::CURVES),
     (3033, |f| f.spec.features = 0),
     (3034, |f| f.spec.features |= Features::MASK),
     (3034, |f| f.meta.sampler.outline = None),
@@ -176,10 +186,12 @@ const VALUE_CASES: &[ValueCase] = &[
     (4004, |f| f.paints[0].data_count = 1),
     (4005, |f| f.paints[1].color[3] = 1.5),
     (4005, |f| f.paints[1].color[0] = f32::NAN),
-    (4010, |f| f.shapes[0].coverage = 2),
+    (4010, |f| f.shapes[0].coverage = 4),
     (4011, |f| f.shapes[0].fill_rule = 2),
     (4012, |f| f.shapes[2].layer_or_image = 2),
+    (4012, |f| f.shapes[3].layer_or_image = 1),
     (4013, |f| f.shapes[2].paint = 1),
+    (4013, |f| f.shapes[3].paint = 2),
     (4013, |f| f.shapes[0].paint = 2),
     (4014, |f| f.shapes[1].bounds_uv[2] = -1.0),
     (4015, |f| f.shapes[1].reserved = 1),
@@ -191,16 +203,21 @@ const VALUE_CASES: &[ValueCase] = &[
     (5002, |f| f.cells[0] = 1),
     (5003, |f| f.cells[1] = 1 << 30 | 2),
     (5004, |f| f.cells[2] = 2 << 30 | 1),
-    (5004, |f| f.cells[2] = 2 << 30 | 8),
-    (5005, |f| f.entries[6] &= !(1 << 27)),
+    (5004, |f| f.cells[2] = 2 << 30 | 10),
+    (5005, |f| f.entries[8] &= !(1 << 27)),
     (5010, |f| f.entries.truncate(7)),
-    (5011, |f| f.entries[0] = 2 << 28),
+    (5011, |f| f.entries[0] = 4 << 28),
     (5011, |f| f.entries[5] = 1),
     (5012, |f| f.entries[4] += 2),
     (5013, |f| f.entries[1] = 3),
     (5014, |f| f.entries[2] += 1),
     (5015, |f| f.entries[0] |= 1 << 26),
     (5015, |f| f.entries[2] |= 1 << 26),
+    (5015, |f| f.entries[8] |= 1 << 26),
+    (5016, |f| f.entries[9] = 8),
+    (5016, |f| f.entries[9] = u32::MAX),
+    (5016, |f| f.curves.truncate(8)),
+    (5020, |f| f.curves[4] = 3),
     (6002, |f| f.tiles.truncate(26 * 4)),
     (6003, |f| f.tiles[7] = 254),
     (6010, |f| f.images[0].size[0] = 0),
@@ -214,6 +231,10 @@ const VALUE_CASES: &[ValueCase] = &[
 
 fn outline(file: &mut VtexFile) -> &mut Outline {
     file.meta.sampler.outline.as_mut().unwrap()
+}
+
+fn lattice(file: &mut VtexFile) -> &mut CurveLattice {
+    file.meta.curve_lattice.as_mut().unwrap()
 }
 
 fn layer(tile_first: u32, tile_count: u32) -> LayerRecord {

@@ -52,6 +52,7 @@ fn every_tag_is_there_in_file_order() {
         Tag::IMAG,
         Tag::CELL,
         Tag::ENTR,
+        Tag::CURV,
         Tag::TILE,
         Tag::MIPS,
     ];

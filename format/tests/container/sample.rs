@@ -3,9 +3,10 @@
 use arbtest::arbitrary::{Result, Unstructured};
 use bytemuck::Zeroable;
 use vtex_format::{
-    AddressMode, COVERAGE_IMAGE, COVERAGE_MSDF, CellWord, Entry, EntryKind, Features, Grid, Image,
-    LayerRecord, Meta, Outline, PaintRecord, Provenance, SHADER_ABI, SamplerSettings, ShaderBlob,
-    ShapeRecord, ShapeReport, SpecKey, VtexFile, Warning, WarningCode,
+    AddressMode, COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CellWord, CurveHeader,
+    CurveLattice, Entry, EntryKind, Features, Grid, Image, LayerRecord, Meta, Outline, PaintRecord,
+    Provenance, SHADER_ABI, SamplerSettings, ShaderBlob, ShapeRecord, ShapeReport, SpecKey,
+    VtexFile, Warning, WarningCode,
 };
 
 /// A 2 x 2 grid with every kind of cell and entry, two layers, two images and every section.
@@ -25,7 +26,8 @@ pub(crate) fn small() -> VtexFile {
         entry(EntryKind::Msdf, false, 1, 0),
         entry(EntryKind::Image, false, 1, 0),
         full,
-        entry(EntryKind::Msdf, true, 1, 2),
+        entry(EntryKind::Msdf, false, 1, 2),
+        entry(EntryKind::Curves, true, 1, 3),
     ];
     let cells = [
         CellWord::Empty,
@@ -34,7 +36,10 @@ pub(crate) fn small() -> VtexFile {
         CellWord::List { offset_words: 6 },
     ];
     let file = VtexFile {
-        meta: meta([2, 2], 2),
+        meta: Meta {
+            curve_lattice: CurveLattice::new(0.125),
+            ..meta([2, 2], 2)
+        },
         spec: SpecKey {
             features: Features::MIPS,
             ..SpecKey::zeroed()
@@ -52,6 +57,7 @@ pub(crate) fn small() -> VtexFile {
             shape(COVERAGE_MSDF, 0, 1),
             shape(COVERAGE_MSDF, 1, 1),
             shape(COVERAGE_IMAGE, 1, 0),
+            shape(COVERAGE_CURVES, 0, 1),
         ],
         layers: vec![layer(0, 2, 1), layer(2, 1, 1)],
         cells: cells.map(|cell| cell.encode().unwrap()).to_vec(),
@@ -59,12 +65,14 @@ pub(crate) fn small() -> VtexFile {
             .iter()
             .flat_map(|entry| entry.encode().unwrap())
             .collect(),
+        // A record of 3 words, then one of 6.
+        curves: [record(1, 0, 0), record(0, 2, 0)].concat(),
         tiles: tiles(3 * 9),
         images: vec![
             image([0.0, 0.0, 1.0, 1.0], [5, 3]),
             image([0.25, 0.0, 0.5, 1.0], [1, 2]),
         ],
-        provenance: Some(provenance(3)),
+        provenance: Some(provenance(4)),
     };
     with_key(file)
 }
@@ -95,6 +103,7 @@ fn meta(size_cells: [u32; 2], texels_per_cell: u32) -> Meta {
             }),
             ..SamplerSettings::default()
         },
+        curve_lattice: None,
     }
 }
 
@@ -116,6 +125,22 @@ fn layer(tile_first: u32, tile_count: u32, shape_count: u32) -> LayerRecord {
         shape_count,
         reserved: 0,
     }
+}
+
+/// A curve record of any segments, one of its lines running down.
+fn record(step_count: u32, line_count: u32, quad_count: u32) -> Vec<u32> {
+    let header = CurveHeader {
+        line_count,
+        down_line_count: line_count.min(1),
+        quad_count,
+        down_quad_count: 0,
+        step_count,
+        even_odd: line_count.is_multiple_of(2),
+        base_winding: -1,
+    };
+    let mut words = header.encode().unwrap().to_vec();
+    words.extend((2..header.record_words()).map(|i| i * 0x0123_4567));
+    words
 }
 
 /// Texels of any colour whose alpha is 255.
@@ -182,7 +207,17 @@ pub(crate) fn arbitrary(u: &mut Unstructured<'_>) -> Result<VtexFile> {
         .collect::<Result<Vec<_>>>()?;
     let layers = any_layers(u)?;
     let tile_count: u32 = layers.iter().map(|layer| layer.tile_count).sum();
-    let entries = any_entries(u, &paints, images.len() as u32, tile_count)?;
+    let records = (0..u.int_in_range(0..=3)?).map(|_| any_record(u));
+    let records = records.collect::<Result<Vec<_>>>()?;
+    if !records.is_empty() {
+        meta.curve_lattice = CurveLattice::new(0.25);
+    }
+    let tables = Tables {
+        image_count: images.len() as u32,
+        tile_count,
+        records: &records,
+    };
+    let entries = any_entries(u, &paints, &tables)?;
     let entry_count = entries.len() as u32 / 2;
     let cells = (0..size[0] * size[1]).map(|_| cell(u, &paints, entry_count));
     let cells = cells.collect::<Result<Vec<_>>>()?;
@@ -200,6 +235,7 @@ pub(crate) fn arbitrary(u: &mut Unstructured<'_>) -> Result<VtexFile> {
         },
         shapes: any_shapes(&layers),
         tiles: tiles((tile_count * texels_per_tile) as usize),
+        curves: records.concat(),
         provenance: None,
         meta,
         paints,
@@ -243,11 +279,22 @@ fn any_shapes(layers: &[LayerRecord]) -> Vec<ShapeRecord> {
     members.collect()
 }
 
+fn any_record(u: &mut Unstructured<'_>) -> Result<Vec<u32>> {
+    let count = |u: &mut Unstructured<'_>| u.int_in_range(0..=4);
+    Ok(record(count(u)?, count(u)?, count(u)?))
+}
+
+/// What entries may name.
+struct Tables<'a> {
+    image_count: u32,
+    tile_count: u32,
+    records: &'a [Vec<u32>],
+}
+
 fn any_entries(
     u: &mut Unstructured<'_>,
     paints: &[PaintRecord],
-    image_count: u32,
-    tile_count: u32,
+    tables: &Tables<'_>,
 ) -> Result<Vec<u32>> {
     let count = u.int_in_range(0..=12)?;
     let mut words = Vec::new();
@@ -260,13 +307,17 @@ fn any_entries(
             index: paint as u32,
             data: 0,
         };
-        if tile_count > 0 && u.arbitrary()? {
+        if tables.tile_count > 0 && u.arbitrary()? {
             entry.kind = EntryKind::Msdf;
-            entry.data = u.int_in_range(0..=tile_count - 1)?;
-        } else if image_count > 0 && u.arbitrary()? {
+            entry.data = u.int_in_range(0..=tables.tile_count - 1)?;
+        } else if !tables.records.is_empty() && u.arbitrary()? {
+            let place = u.choose_index(tables.records.len())?;
+            entry.kind = EntryKind::Curves;
+            entry.data = tables.records[..place].concat().len() as u32;
+        } else if tables.image_count > 0 && u.arbitrary()? {
             entry.kind = EntryKind::Image;
             entry.opaque = false;
-            entry.index = u.int_in_range(0..=image_count - 1)?;
+            entry.index = u.int_in_range(0..=tables.image_count - 1)?;
         }
         words.extend(entry.encode().unwrap());
     }

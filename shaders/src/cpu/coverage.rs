@@ -1,23 +1,20 @@
-//! Twin of `vtex/coverage_msdf.wgsl` and `vtex/coverage_outline.wgsl`.
+//! Twin of `vtex/coverage_edge.wgsl` and `vtex/coverage_outline.wgsl`.
 
-use super::{Lookup, Sampler, msdf};
-use crate::layout::entry;
+use super::{Lookup, Sampler, edge, ramp};
+use crate::layout::filter;
 
 /// Of the shape, and of the ring around it where `outline` asks for it (\[SFG22\] eq. 2).
-pub(super) fn coverage(
-    sampler: &Sampler<'_>,
-    [head, tile]: [u32; 2],
-    lookup: &Lookup,
-) -> (f32, f32) {
-    if head >> entry::KIND_SHIFT != entry::MSDF {
+pub(super) fn coverage(sampler: &Sampler<'_>, entry: [u32; 2], lookup: &Lookup) -> (f32, f32) {
+    let settings = &sampler.settings;
+    let sharp = settings.filter == filter::POINT && !settings.outline;
+    let Some(distance) = edge::distance(sampler, entry, lookup.q, sharp) else {
         return (1.0, 0.0);
-    }
-    let distance = msdf::distance(sampler, tile, lookup.q);
-    let inner = msdf::coverage(sampler, distance, lookup.width_cells);
-    if !sampler.settings.outline {
+    };
+    let inner = ramp::coverage(sampler, distance, lookup.width_cells);
+    if !settings.outline {
         return (inner, 0.0);
     }
-    let grown = distance + sampler.settings.outline_width;
-    let outer = msdf::coverage(sampler, grown, lookup.width_cells);
+    let grown = distance + settings.outline_width;
+    let outer = ramp::coverage(sampler, grown, lookup.width_cells);
     (inner, (outer - inner).max(0.0))
 }

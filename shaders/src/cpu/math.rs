@@ -29,7 +29,7 @@ pub(super) fn to_u32(x: f32) -> u32 {
 
 /// Counts of cells and texels, far below 2^24.
 #[expect(clippy::cast_precision_loss, reason = "as WGSL's f32()")]
-pub(super) fn to_f32(x: u32) -> f32 {
+pub(crate) fn to_f32(x: u32) -> f32 {
     x as f32
 }
 

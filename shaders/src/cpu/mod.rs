@@ -9,6 +9,8 @@ mod cell;
 pub mod color;
 mod composite;
 mod coverage;
+pub mod curve;
+mod edge;
 mod entry;
 mod footprint;
 mod image;
@@ -17,6 +19,7 @@ mod matrix;
 mod minify;
 mod msdf;
 mod over;
+mod ramp;
 mod sample;
 mod settings;
 mod source;
@@ -24,6 +27,7 @@ mod value;
 mod words;
 
 use footprint::Lookup;
+pub(crate) use math::to_f32;
 use settings::Settings;
 use value::Value;
 

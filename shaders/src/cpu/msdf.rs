@@ -1,8 +1,7 @@
-//! Twin of `vtex/msdf.wgsl`: signed distance from a tile, and coverage from the distance.
+//! Twin of `vtex/msdf.wgsl`: signed distance from a tile.
 
 use super::Sampler;
-use super::math::{clamp, median, smoothstep, to_f32, to_u32};
-use crate::layout::filter::{FOOTPRINT, PAPER};
+use super::math::{clamp, median, to_f32, to_u32};
 
 /// Red, green and blue of a texel, in \[0, 1\]; the fourth lane is idle.
 fn unpack(word: u32) -> [f32; 4] {
@@ -33,20 +32,4 @@ pub(super) fn distance(sampler: &Sampler<'_>, tile: u32, q: [f32; 2]) -> f32 {
     let bottom = mix(unpack(below[0]), unpack(below[1]), f[0]);
     let [r, g, b, _] = mix(top, bottom, f[1]);
     (median([r, g, b]) - 0.5) * sampler.settings.distance_range
-}
-
-pub(super) fn coverage(sampler: &Sampler<'_>, distance: f32, width_cells: f32) -> f32 {
-    let s = &sampler.settings;
-    match s.filter {
-        FOOTPRINT => {
-            let width = width_cells * to_f32(s.texels_per_cell);
-            clamp(distance / width.max(1e-6) + 0.5, 0.0, 1.0)
-        }
-        PAPER => {
-            // [SFG22] eq. 1.
-            let m = distance / s.distance_range + 0.5;
-            smoothstep(0.5 - s.smoothing, 0.5 + s.smoothing, m)
-        }
-        _ => f32::from(u8::from(distance > 0.0)),
-    }
 }

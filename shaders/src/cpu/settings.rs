@@ -27,6 +27,9 @@ pub(super) struct Settings {
     pub(super) paints: u32,
     pub(super) tiles: u32,
     pub(super) images: u32,
+    pub(super) curves: u32,
+    /// Units of the curve lattice along a cell, and around it.
+    pub(super) curve_lattice: [f32; 2],
     pub(super) features: u32,
 }
 
@@ -55,6 +58,8 @@ impl Settings {
             paints: word(header::PAINTS),
             tiles: word(header::TILES),
             images: word(header::IMAGES),
+            curves: word(header::CURVES),
+            curve_lattice: float2(header::CURVE_UNITS),
             features: word(header::FEATURES),
         };
         if settings.has(Features::OUTLINE) {

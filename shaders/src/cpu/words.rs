@@ -20,6 +20,11 @@ impl Sampler<'_> {
         found.copied().unwrap_or([0; N])
     }
 
+    /// All words from `first` on.
+    pub(super) fn words_from(&self, first: u32) -> &[u32] {
+        self.words.get(first as usize..).unwrap_or(&[])
+    }
+
     pub(super) fn word_float(&self, index: u32) -> f32 {
         f32::from_bits(self.word(index))
     }

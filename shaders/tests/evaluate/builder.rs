@@ -1,14 +1,17 @@
 //! Small files built by hand: a grid of cells of unit scale, without a baker.
 
 use vtex_format::{
-    CellWord, Entry, EntryKind, Grid, Image, Meta, PaintRecord, SHADER_ABI, SamplerSettings,
-    ShaderBlob, SpecKey, VtexFile,
+    CellWord, CurveHeader, CurveLattice, Entry, EntryKind, Grid, Image, Meta, PaintRecord,
+    SHADER_ABI, SamplerSettings, ShaderBlob, SpecKey, VtexFile,
 };
 
 /// Lattice steps a cell.
 pub(crate) const TEXELS: u32 = 4;
 /// Full distance range in texels.
 pub(crate) const RANGE: f32 = 4.0;
+
+/// Reach of curve records in cells.
+pub(crate) const MARGIN: f32 = 0.25;
 
 /// What a listed entry is made of.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +36,7 @@ pub(crate) fn row_of(columns: u32) -> VtexFile {
         distance_range_texels: RANGE,
         max_zoom: 1.0,
         sampler: SamplerSettings::default(),
+        curve_lattice: None,
     };
     VtexFile {
         meta,
@@ -47,6 +51,7 @@ pub(crate) fn row_of(columns: u32) -> VtexFile {
         layers: Vec::new(),
         cells: vec![0; columns as usize],
         entries: Vec::new(),
+        curves: Vec::new(),
         tiles: Vec::new(),
         images: Vec::new(),
         provenance: None,
@@ -152,4 +157,67 @@ pub(crate) fn image(
         size,
         mips: mips.collect(),
     }
+}
+
+/// An outline in cell 0's box, `p` in cells from the cell's corner.
+pub(crate) type Segment = Vec<[f32; 2]>;
+
+/// Adds the curve record of `segments`, each two or three points, both coordinates monotone.
+/// Returns its place.
+pub(crate) fn push_record(
+    file: &mut VtexFile,
+    header: CurveHeader,
+    steps: &[(f32, i16)],
+    segments: &[Segment],
+) -> u32 {
+    let lattice = CurveLattice::new(MARGIN).expect("in range");
+    file.meta.curve_lattice = Some(lattice);
+    let unit = |v: f32| {
+        let units = v * lattice.units_per_cell as f32 + lattice.margin_units as f32;
+        units.round().clamp(0.0, 65_535.0) as u32
+    };
+    let runs_down = |segment: &Segment| segment[segment.len() - 1][1] > segment[0][1];
+    let stored = |points: usize, down: bool| -> Vec<u32> {
+        let chosen = segments
+            .iter()
+            .filter(|segment| segment.len() == points && runs_down(segment) == down);
+        let mut words = Vec::new();
+        for segment in chosen {
+            let mut points = segment.clone();
+            if !down {
+                points.reverse();
+            }
+            words.extend(points.iter().map(|&[x, y]| unit(x) | unit(y) << 16));
+        }
+        words
+    };
+    let count = |words: usize, points: u32| words as u32 / points;
+    let header = CurveHeader {
+        line_count: segments.iter().filter(|s| s.len() == 2).count() as u32,
+        down_line_count: count(stored(2, true).len(), 2),
+        quad_count: segments.iter().filter(|s| s.len() == 3).count() as u32,
+        down_quad_count: count(stored(3, true).len(), 3),
+        step_count: steps.len() as u32,
+        ..header
+    };
+    let place = file.curves.len() as u32;
+    file.curves.extend(header.encode().expect("fits"));
+    let step = |&(y, change): &(f32, i16)| unit(y) | u32::from(change.cast_unsigned()) << 16;
+    file.curves.extend(steps.iter().map(step));
+    for (points, down) in [(2, true), (2, false), (3, true), (3, false)] {
+        file.curves.extend(stored(points, down));
+    }
+    place
+}
+
+/// Lists the record at `place` alone in `cell`.
+pub(crate) fn set_record(file: &mut VtexFile, cell: usize, place: u32, color: [f32; 4]) {
+    let entry = Entry {
+        kind: EntryKind::Curves,
+        last: true,
+        opaque: color[3] >= 1.0,
+        index: paint(file, color),
+        data: place,
+    };
+    push_entries(file, cell, &[entry]);
 }

@@ -8,6 +8,7 @@
 
 mod address;
 mod builder;
+mod curves;
 mod formula;
 mod images;
 mod lists;

@@ -71,6 +71,7 @@ fn code_of_absent_features_is_not_in_the_text() {
         let has = |feature: u32| features & feature != 0;
         let lists = has(Features::LISTS);
         let msdf = lists && has(Features::MSDF);
+        let curves = lists && has(Features::CURVES);
         let images = lists && has(Features::IMAGES);
         // An image's texels may be translucent.
         let translucent = lists && (has(Features::TRANSLUCENT) || images);
@@ -79,9 +80,12 @@ fn code_of_absent_features_is_not_in_the_text() {
             ("vtex_composite", lists),
             ("vtex_msdf_", msdf),
             ("vtex_math_median", msdf),
+            ("vtex_curve_", curves),
+            ("fn vtex_edge_in(", msdf || curves),
+            ("vtex_ramp_", msdf || curves),
             ("vtex_image_", images || has(Features::MIPS)),
             ("vtex_texel", images || has(Features::MIPS)),
-            ("_outline", msdf && has(Features::OUTLINE)),
+            ("_outline", (msdf || curves) && has(Features::OUTLINE)),
             ("vtex_over", translucent && !mask),
             ("vtex_color_encode", translucent && !mask),
             ("vtex_color_decode", translucent && !mask),

@@ -2,8 +2,7 @@
 //!use core/math
 //!use vtex/words
 //!use vtex/settings
-//!use vtex/footprint
-// Signed distance from a tile, and coverage from the distance.
+// Signed distance from a tile.
 
 fn vtex_msdf_texel(vt: u32, index: u32) -> vec3f {
     return unpack4x8unorm(vtex_word(vt, index)).rgb;
@@ -27,22 +26,4 @@ fn vtex_msdf_distance(vt: u32, tile: u32, q: vec2f) -> f32 {
     );
     let m = vtex_math_median(mix(top, bottom, f.y));
     return (m - 0.5) * vtex_word_float(vt, VTEX_HEADER_DISTANCE_RANGE);
-}
-
-fn vtex_msdf_coverage(vt: u32, distance: f32, width_cells: f32) -> f32 {
-    switch vtex_word(vt, VTEX_HEADER_FILTER) {
-        case VTEX_FILTER_FOOTPRINT: {
-            let width = width_cells * f32(vtex_settings_texels_per_cell(vt));
-            return clamp(distance / max(width, 1e-6) + 0.5, 0.0, 1.0);
-        }
-        case VTEX_FILTER_PAPER: {
-            // [SFG22] eq. 1.
-            let m = distance / vtex_word_float(vt, VTEX_HEADER_DISTANCE_RANGE) + 0.5;
-            let s = vtex_word_float(vt, VTEX_HEADER_SMOOTHING);
-            return smoothstep(0.5 - s, 0.5 + s, m);
-        }
-        default: {
-            return select(0.0, 1.0, distance > 0.0);
-        }
-    }
 }

@@ -63,6 +63,7 @@ fn cells_file(size: [u32; 2], colors: &[[f32; 4]]) -> VtexFile {
             distance_range_texels: 4.0,
             max_zoom: 1.0,
             sampler: SamplerSettings::default(),
+            curve_lattice: None,
         },
         spec,
         shader: ShaderBlob {
@@ -78,6 +79,7 @@ fn cells_file(size: [u32; 2], colors: &[[f32; 4]]) -> VtexFile {
             .map(|(paint, _)| CellWord::Solid { paint }.encode().unwrap())
             .collect(),
         entries: Vec::new(),
+        curves: Vec::new(),
         tiles: Vec::new(),
         images: Vec::new(),
         provenance: None,

@@ -1,8 +1,11 @@
 //! What a lookup touches: the walk of docs/format.md section 3 over a file's records, counting
 //! instead of compositing. Magnified lookups only, where cells answer alone.
 
-use vtex_format::{CellWord, Entry, EntryKind, Features, Image, MAX_ENTRIES_PER_CELL, VtexFile};
+use vtex_format::{
+    CellWord, CurveHeader, Entry, EntryKind, Features, Image, MAX_ENTRIES_PER_CELL, VtexFile,
+};
 use vtex_shaders::FilterMode;
+use vtex_shaders::cpu::curve::inside;
 
 /// Bytes of a cell's word.
 const CELL_BYTES: u64 = 4;
@@ -145,7 +148,32 @@ impl Walk<'_> {
                 };
                 (coverage, seen.plus(lookup).plus(shown))
             }
+            EntryKind::Curves => {
+                let (coverage, lookup) = self.curves(entry.data, q);
+                let shown = if coverage > 0.0 {
+                    paint()
+                } else {
+                    Count::default()
+                };
+                (coverage, seen.plus(lookup).plus(shown))
+            }
         }
+    }
+
+    /// Every word of a record is read. Ramps are narrow when magnified, so the hard test tells
+    /// what shows.
+    fn curves(&self, at: u32, q: [f32; 2]) -> (f32, Count) {
+        let record = self.file.curves.get(at as usize..).unwrap_or(&[]);
+        let header = record.first_chunk().copied().and_then(CurveHeader::decode);
+        let (Some(header), Some(lattice)) = (header, self.file.meta.curve_lattice) else {
+            return (0.0, Count::default());
+        };
+        let p = q.map(|q| q * lattice.units_per_cell as f32 + lattice.margin_units as f32);
+        let count = Count {
+            bytes: 4 * u64::from(header.record_words()),
+            ..Count::default()
+        };
+        (f32::from(u8::from(inside(record, p))), count)
     }
 
     /// Magnified, so level 0 alone, unless the image is finer than the lookup.
@@ -259,6 +287,7 @@ mod tests {
                 distance_range_texels: 4.0,
                 max_zoom: 1.0,
                 sampler: SamplerSettings::default(),
+                curve_lattice: None,
             },
             spec: bytemuck::Zeroable::zeroed(),
             shader: ShaderBlob {
@@ -285,6 +314,7 @@ mod tests {
                 .filter_map(|entry| entry.encode())
                 .flatten()
                 .collect(),
+            curves: Vec::new(),
             tiles: [[255; 4], [0, 0, 0, 255], [255; 4], [0, 0, 0, 255]].concat(),
             images: Vec::new(),
             provenance: None,

@@ -73,6 +73,7 @@ pub(crate) fn feature_names(features: u32) -> Vec<&'static str> {
         (Features::MASK, "mask"),
         (Features::OUTLINE, "outline"),
         (Features::TEXTURE_MATRIX, "texture-matrix"),
+        (Features::CURVES, "curves"),
     ];
     names
         .into_iter()

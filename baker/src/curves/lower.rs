@@ -1,0 +1,319 @@
+//! Outlines as monotone lines and quadratics between points of the integer lattice.
+
+use kurbo::{BezPath, CubicBez, PathEl, Point, QuadBez};
+
+use super::CurveError;
+
+/// Largest coordinate in units. Cuts keep a precision far below a unit, and a canvas of 128 cells
+/// is 2^23 units wide.
+const MAX_COORDINATE: f64 = (1_u64 << 40) as f64;
+/// Most quadratics that a monotone piece of a cubic becomes; one that would need more leaves its
+/// tolerance. An arc that spans a whole canvas at the largest zoom takes about 30.
+const MAX_PIECES: u32 = 1024;
+
+/// A line or quadratic, monotone in x and in y, from its upper to its lower end (equal heights:
+/// left to right). So two shapes that share an edge hold the same segment, whichever way round
+/// they run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Segment {
+    /// Upper end, on the lattice.
+    pub(crate) start: Point,
+    /// Control point, inside the box of the ends.
+    pub(crate) control: Option<Point>,
+    /// Lower end, on the lattice.
+    pub(crate) end: Point,
+    /// 1 where the outline runs from start to end, -1 where it runs back.
+    pub(crate) direction: i32,
+}
+
+impl Segment {
+    /// Smallest x.
+    pub(crate) fn x_min(&self) -> f64 {
+        self.start.x.min(self.end.x)
+    }
+
+    /// Largest x.
+    pub(crate) fn x_max(&self) -> f64 {
+        self.start.x.max(self.end.x)
+    }
+
+    /// Blossom: the point at `s = t`, and the control point of the part between `s` and `t`.
+    pub(crate) fn blossom(&self, s: f64, t: f64) -> Point {
+        let (a, b) = (self.start.to_vec2(), self.end.to_vec2());
+        let point = match self.control {
+            // A line's control point is its middle.
+            None => a.lerp(b, 0.5 * (s + t)),
+            Some(c) => {
+                let c = c.to_vec2();
+                (1.0 - s) * (1.0 - t) * a + (s * (1.0 - t) + t * (1.0 - s)) * c + s * t * b
+            }
+        };
+        point.to_point()
+    }
+}
+
+/// A shape's outline in units, ready to be cut.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct LoweredOutline {
+    /// The segments of all contours; every contour is a closed chain.
+    pub(crate) segments: Vec<Segment>,
+}
+
+impl LoweredOutline {
+    /// Lowers `outline`, whose coordinates are in units; contours are closed where they are not.
+    /// Cubics are replaced by quadratics within `tolerance` units.
+    ///
+    /// # Errors
+    /// [`CurveError::Range`] for coordinates that no lattice can hold.
+    pub(crate) fn new(outline: &BezPath, tolerance: f64) -> Result<Self, CurveError> {
+        let mut lowering = Lowering {
+            segments: Vec::new(),
+            tolerance,
+        };
+        let (mut first, mut here) = (Point::ZERO, Point::ZERO);
+        for element in outline.elements() {
+            check_range(element)?;
+            match *element {
+                PathEl::MoveTo(p) => {
+                    lowering.line(here, first);
+                    (first, here) = (p, p);
+                }
+                PathEl::LineTo(p) => {
+                    lowering.line(here, p);
+                    here = p;
+                }
+                PathEl::QuadTo(c, p) => {
+                    lowering.quad(QuadBez::new(here, c, p));
+                    here = p;
+                }
+                PathEl::CurveTo(c, d, p) => {
+                    lowering.cubic(CubicBez::new(here, c, d, p));
+                    here = p;
+                }
+                PathEl::ClosePath => {
+                    lowering.line(here, first);
+                    here = first;
+                }
+            }
+        }
+        lowering.line(here, first);
+        Ok(Self {
+            segments: lowering.segments,
+        })
+    }
+}
+
+fn check_range(element: &PathEl) -> Result<(), CurveError> {
+    let points = match *element {
+        PathEl::MoveTo(p) | PathEl::LineTo(p) => [p; 3],
+        PathEl::QuadTo(c, p) => [c, p, p],
+        PathEl::CurveTo(c, d, p) => [c, d, p],
+        PathEl::ClosePath => return Ok(()),
+    };
+    let fits = |p: &Point| p.x.abs() <= MAX_COORDINATE && p.y.abs() <= MAX_COORDINATE;
+    if points.iter().all(fits) {
+        Ok(())
+    } else {
+        Err(CurveError::Range)
+    }
+}
+
+struct Lowering {
+    segments: Vec<Segment>,
+    tolerance: f64,
+}
+
+impl Lowering {
+    fn line(&mut self, from: Point, to: Point) {
+        self.push(from.round(), None, to.round());
+    }
+
+    fn quad(&mut self, quad: QuadBez) {
+        // The same quadratic backwards is cut at the same points.
+        let (quad, forward) = if is_canonical(quad.p0, quad.p2, quad.p1, quad.p1) {
+            (quad, true)
+        } else {
+            (QuadBez::new(quad.p2, quad.p1, quad.p0), false)
+        };
+        let whole = Segment {
+            start: quad.p0,
+            control: Some(quad.p1),
+            end: quad.p2,
+            direction: 1,
+        };
+        let axes = [
+            [quad.p0.x, quad.p1.x, quad.p2.x],
+            [quad.p0.y, quad.p1.y, quad.p2.y],
+        ];
+        let mut cuts: Vec<f64> = axes
+            .map(|[a, b, c]| (a - b) / (a - 2.0 * b + c))
+            .into_iter()
+            .filter(|t| *t > 0.0 && *t < 1.0)
+            .collect();
+        cuts.sort_by(f64::total_cmp);
+        let mut from = (0.0, quad.p0.round());
+        for t in cuts.into_iter().chain([1.0]) {
+            let end = whole.blossom(t, t).round();
+            let control = whole.blossom(from.0, t);
+            self.push_along(forward, from.1, control, end);
+            from = (t, end);
+        }
+    }
+
+    fn cubic(&mut self, cubic: CubicBez) {
+        let (cubic, forward) = if is_canonical(cubic.p0, cubic.p3, cubic.p1, cubic.p2) {
+            (cubic, true)
+        } else {
+            let reversed = CubicBez::new(cubic.p3, cubic.p2, cubic.p1, cubic.p0);
+            (reversed, false)
+        };
+        let mut cuts = extrema([cubic.p0.x, cubic.p1.x, cubic.p2.x, cubic.p3.x]);
+        cuts.extend(extrema([cubic.p0.y, cubic.p1.y, cubic.p2.y, cubic.p3.y]));
+        cuts.sort_by(f64::total_cmp);
+        let mut from = 0.0;
+        for t in cuts.into_iter().chain([1.0]) {
+            if t > from {
+                self.monotone_cubic(&subcubic(&cubic, from, t), forward);
+                from = t;
+            }
+        }
+    }
+
+    /// Both coordinates of `cubic` are monotone.
+    fn monotone_cubic(&mut self, cubic: &CubicBez, forward: bool) {
+        let mut count = piece_count(cubic, self.tolerance);
+        while count < MAX_PIECES && !quads(cubic, count).all(|q| q.error <= self.tolerance) {
+            count += 1 + count / 4;
+        }
+        for piece in quads(cubic, count) {
+            self.push_along(
+                forward,
+                piece.quad.p0.round(),
+                piece.quad.p1,
+                piece.quad.p2.round(),
+            );
+        }
+    }
+
+    fn push_along(&mut self, forward: bool, from: Point, control: Point, to: Point) {
+        if forward {
+            self.push(from, Some(control), to);
+        } else {
+            self.push(to, Some(control), from);
+        }
+    }
+
+    /// `from` and `to` are lattice points.
+    fn push(&mut self, from: Point, control: Option<Point>, to: Point) {
+        if from == to {
+            return;
+        }
+        let down = (from.y, from.x) < (to.y, to.x);
+        let (start, end) = if down { (from, to) } else { (to, from) };
+        let control = control.map(|c| clamp_to_box(c.round(), start, end));
+        self.segments.push(Segment {
+            start,
+            control: control.filter(|c| *c != start && *c != end),
+            end,
+            direction: if down { 1 } else { -1 },
+        });
+    }
+}
+
+/// Whether a curve runs in the one of its two directions in which it is cut.
+fn is_canonical(start: Point, end: Point, after: Point, before: Point) -> bool {
+    let key = |p: Point, q: Point| (p.y, p.x, q.y, q.x);
+    key(start, after) <= key(end, before)
+}
+
+/// `p` moved into the box of two corners.
+pub(super) fn clamp_to_box(p: Point, a: Point, b: Point) -> Point {
+    Point::new(
+        p.x.clamp(a.x.min(b.x), a.x.max(b.x)),
+        p.y.clamp(a.y.min(b.y), a.y.max(b.y)),
+    )
+}
+
+/// Parameters in (0, 1) at which a cubic's coordinate turns round.
+fn extrema([p0, p1, p2, p3]: [f64; 4]) -> Vec<f64> {
+    let (d0, d1, d2) = (p1 - p0, p2 - p1, p3 - p2);
+    let (a, b, c) = (d0 - 2.0 * d1 + d2, d1 - d0, d0);
+    // a t^2 + 2 b t + c = 0, by the form that does not cancel.
+    let discriminant = b * b - a * c;
+    if discriminant <= 0.0 {
+        return Vec::new();
+    }
+    let q = -(b + discriminant.sqrt().copysign(b));
+    let roots = [q / a, c / q];
+    roots.into_iter().filter(|t| *t > 0.0 && *t < 1.0).collect()
+}
+
+fn subcubic(cubic: &CubicBez, from: f64, to: f64) -> CubicBez {
+    let at = |r: f64, s: f64, t: f64| {
+        let ends = [cubic.p0, cubic.p1, cubic.p2, cubic.p3].map(Point::to_vec2);
+        let first = [0, 1, 2].map(|i| ends[i].lerp(ends[i + 1], r));
+        let second = [0, 1].map(|i| first[i].lerp(first[i + 1], s));
+        second[0].lerp(second[1], t).to_point()
+    };
+    CubicBez::new(
+        if from <= 0.0 {
+            cubic.p0
+        } else {
+            at(from, from, from)
+        },
+        at(from, from, to),
+        at(from, to, to),
+        if to >= 1.0 { cubic.p3 } else { at(to, to, to) },
+    )
+}
+
+struct Piece {
+    quad: QuadBez,
+    /// Largest distance between equal parameters at the sampled ones.
+    error: f64,
+}
+
+/// `count` quadratics along a monotone `cubic`, each with the control point that keeps the middle,
+/// moved into the box of its ends so that it stays monotone.
+fn quads(cubic: &CubicBez, count: u32) -> impl Iterator<Item = Piece> {
+    let parameter = move |i: u32| f64::from(i) / f64::from(count);
+    (0..count).map(move |i| {
+        let part = subcubic(cubic, parameter(i), parameter(i + 1));
+        let [p0, p1, p2, p3] = [part.p0, part.p1, part.p2, part.p3].map(Point::to_vec2);
+        let control = (0.25 * (3.0 * (p1 + p2) - p0 - p3)).to_point();
+        let quad = QuadBez::new(part.p0, clamp_to_box(control, part.p0, part.p3), part.p3);
+        let gap = |t: f64| {
+            let on = |points: &[kurbo::Vec2; 4]| {
+                let s = 1.0 - t;
+                s * s * s * points[0]
+                    + 3.0 * s * s * t * points[1]
+                    + 3.0 * s * t * t * points[2]
+                    + t * t * t * points[3]
+            };
+            let c = quad.p1.to_vec2();
+            let raised = [p0, (p0 + 2.0 * c) / 3.0, (p3 + 2.0 * c) / 3.0, p3];
+            (on(&[p0, p1, p2, p3]) - on(&raised)).hypot()
+        };
+        let error = [0.2, 0.35, 0.5, 0.65, 0.8]
+            .into_iter()
+            .map(gap)
+            .fold(0.0, f64::max);
+        Piece { quad, error }
+    })
+}
+
+/// How many quadratics keep within `tolerance` if no control point has to move.
+fn piece_count(cubic: &CubicBez, tolerance: f64) -> u32 {
+    let third = cubic.p3.to_vec2() - 3.0 * cubic.p2.to_vec2() + 3.0 * cubic.p1.to_vec2()
+        - cubic.p0.to_vec2();
+    // The quadratic through the middle leaves the cubic by sqrt(3)/36 of its third difference,
+    // which shrinks with the cube of the step.
+    let count = (third.hypot() * (3.0_f64.sqrt() / 36.0) / tolerance).cbrt();
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped to the range of MAX_PIECES"
+    )]
+    let count = count.ceil().clamp(1.0, f64::from(MAX_PIECES)) as u32;
+    count
+}

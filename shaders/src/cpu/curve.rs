@@ -1,0 +1,236 @@
+//! Twin of `vtex/curve.wgsl`: winding and distance from the exact outline inside a cell.
+//!
+//! A record is described at [`vtex_format::CurveHeader`]. `record` below starts at its first
+//! word and may be longer; words that are missing count as segments that are not there. `p` is in
+//! units of the record's box.
+
+use vtex_format::{CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS};
+
+use super::Sampler;
+use super::math::to_f32;
+use crate::layout::curve::{COUNT_MASK, NEWTON_STEPS, STEP_MASK};
+
+type Vec2 = [f32; 2];
+
+/// Where the parts of a record lie.
+struct Parts<'a> {
+    steps: &'a [u32],
+    lines: &'a [[u32; CURVE_LINE_WORDS as usize]],
+    down_lines: usize,
+    quads: &'a [[u32; CURVE_QUAD_WORDS as usize]],
+    down_quads: usize,
+    even_odd: bool,
+    base: i32,
+}
+
+fn parts(record: &[u32]) -> Parts<'_> {
+    let first = record.first().copied().unwrap_or(0);
+    let second = record.get(1).copied().unwrap_or(0);
+    let count = |word: u32| (word & COUNT_MASK) as usize;
+    let rest = record.get(CURVE_HEADER_WORDS as usize..).unwrap_or(&[]);
+    let (steps, rest) = split(rest, ((first >> 22) & STEP_MASK) as usize);
+    let (lines, rest) = split(rest, count(first) * CURVE_LINE_WORDS as usize);
+    let (quads, _) = split(rest, count(first >> 11) * CURVE_QUAD_WORDS as usize);
+    Parts {
+        steps,
+        lines: lines.as_chunks().0,
+        down_lines: count(second),
+        quads: quads.as_chunks().0,
+        down_quads: count(second >> 11),
+        even_odd: first >> 31 != 0,
+        base: second.cast_signed() >> 22,
+    }
+}
+
+fn split(words: &[u32], at: usize) -> (&[u32], &[u32]) {
+    words.split_at(at.min(words.len()))
+}
+
+fn point(word: u32) -> Vec2 {
+    #[expect(clippy::cast_precision_loss, reason = "16 bits are exact")]
+    let half = |bits: u32| bits as f32;
+    [half(word & 0xffff), half(word >> 16)]
+}
+
+fn sub(a: Vec2, b: Vec2) -> Vec2 {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+fn dot(a: Vec2, b: Vec2) -> f32 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn cross(a: Vec2, b: Vec2) -> f32 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+fn direction(index: usize, down: usize) -> i32 {
+    if index < down { 1 } else { -1 }
+}
+
+/// Winding left of everything in the box, on the height of `p`.
+fn left_winding(parts: &Parts<'_>, p: Vec2) -> i32 {
+    let mut winding = parts.base;
+    for &step in parts.steps {
+        // The low half is y, the high half the signed change.
+        if point(step)[0] <= p[1] {
+            winding += step.cast_signed() >> 16;
+        }
+    }
+    winding
+}
+
+/// Whether the line from `a` down to `b`, both relative to the lookup, meets the ray that runs
+/// left from it. Half open, so that of two lines that meet on the ray's height one counts.
+fn line_crosses_left(a: Vec2, b: Vec2) -> bool {
+    a[1] <= 0.0 && b[1] > 0.0 && cross(a, b) <= 0.0
+}
+
+/// As [`line_crosses_left`], for the quadratic with control point `c`.
+///
+/// In barycentric coordinates of the triangle (a, c, b) the curve is `l1^2 = 4 l0 l2`, and what
+/// lies between it and its chord has `l1 > 0` and `l1^2 < 4 l0 l2`. There the chord and the curve
+/// pass on different sides. Nothing is divided, so nothing can blow up.
+fn quad_crosses_left(a: Vec2, c: Vec2, b: Vec2) -> bool {
+    if !(a[1] <= 0.0 && b[1] > 0.0) {
+        return false;
+    }
+    let chord = cross(a, b);
+    let bend = cross(sub(c, a), sub(b, a));
+    let between = chord * bend < 0.0 && chord * chord < 4.0 * cross(c, b) * cross(a, c);
+    (chord <= 0.0) != between
+}
+
+/// The winding number at `p`, whatever the fill rule.
+pub fn winding(record: &[u32], p: Vec2) -> i32 {
+    let parts = parts(record);
+    let mut winding = left_winding(&parts, p);
+    for (i, line) in parts.lines.iter().enumerate() {
+        let a = sub(point(line[0]), p);
+        let b = sub(point(line[1]), p);
+        if line_crosses_left(a, b) {
+            winding += direction(i, parts.down_lines);
+        }
+    }
+    for (i, quad) in parts.quads.iter().enumerate() {
+        let a = sub(point(quad[0]), p);
+        let b = sub(point(quad[2]), p);
+        if quad_crosses_left(a, sub(point(quad[1]), p), b) {
+            winding += direction(i, parts.down_quads);
+        }
+    }
+    winding
+}
+
+/// Whether `p` is filled.
+pub fn inside(record: &[u32], p: Vec2) -> bool {
+    fills(winding(record, p), parts(record).even_odd)
+}
+
+fn fills(winding: i32, even_odd: bool) -> bool {
+    if even_odd {
+        winding & 1 != 0
+    } else {
+        winding != 0
+    }
+}
+
+/// Signed distance from `p` to the outline in units, inside positive, at most `reach` either way.
+pub fn distance(record: &[u32], p: Vec2, reach: f32) -> f32 {
+    let parts = parts(record);
+    let mut winding = left_winding(&parts, p);
+    let mut nearest = reach * reach;
+    for (i, line) in parts.lines.iter().enumerate() {
+        let a = sub(point(line[0]), p);
+        let b = sub(point(line[1]), p);
+        nearest = nearest.min(line_distance_squared(a, b));
+        if line_crosses_left(a, b) {
+            winding += direction(i, parts.down_lines);
+        }
+    }
+    for (i, quad) in parts.quads.iter().enumerate() {
+        let a = sub(point(quad[0]), p);
+        let c = sub(point(quad[1]), p);
+        let b = sub(point(quad[2]), p);
+        // Monotone, so its ends span its box.
+        if box_distance_squared(a, b) < nearest {
+            nearest = nearest.min(quad_distance_squared(a, c, b));
+        }
+        if quad_crosses_left(a, c, b) {
+            winding += direction(i, parts.down_quads);
+        }
+    }
+    let length = nearest.sqrt();
+    if fills(winding, parts.even_odd) {
+        length
+    } else {
+        -length
+    }
+}
+
+/// In texels, inside positive, far beyond every ramp where the record does not reach. `at` is the
+/// record's place in its section. Only the sign is right when `sharp`.
+pub(super) fn texels(sampler: &Sampler<'_>, at: u32, q: Vec2, sharp: bool) -> f32 {
+    let settings = &sampler.settings;
+    let record = sampler.words_from(settings.curves.wrapping_add(at));
+    let [units_per_cell, reach] = settings.curve_lattice;
+    let p = q.map(|q| q * units_per_cell + reach);
+    let far = |inside: bool| if inside { 1e9 } else { -1e9 };
+    if sharp || reach <= 0.0 {
+        return far(inside(record, p));
+    }
+    let units = distance(record, p, reach);
+    // The slack is for square roots that are not correctly rounded.
+    if units.abs() >= reach * 0.999_999 {
+        return far(units > 0.0);
+    }
+    units / units_per_cell * to_f32(settings.texels_per_cell)
+}
+
+fn box_distance_squared(a: Vec2, b: Vec2) -> f32 {
+    let axis = |i: usize| a[i].min(b[i]).max(-a[i].max(b[i])).max(0.0);
+    dot([axis(0), axis(1)], [axis(0), axis(1)])
+}
+
+/// Squared distance from the origin.
+fn line_distance_squared(a: Vec2, b: Vec2) -> f32 {
+    let e = sub(b, a);
+    // Different lattice points lie at least one unit apart.
+    let t = (-dot(a, e) / dot(e, e).max(1.0)).clamp(0.0, 1.0);
+    let v = [a[0] + e[0] * t, a[1] + e[1] * t];
+    dot(v, v)
+}
+
+/// Squared distance from the origin to `a + 2 b1 t + c2 t^2`, by Newton's method on the squared
+/// distance. Whatever it ends at is a point of the curve, so errors only make the result larger.
+fn quad_distance_squared(a: Vec2, c: Vec2, b: Vec2) -> f32 {
+    let b1 = sub(c, a);
+    let c2 = sub(sub(b, c), b1);
+    let chord = sub(b, a);
+    let mut t = (-dot(a, chord) / dot(chord, chord).max(1.0)).clamp(0.0, 1.0);
+    for _ in 0..NEWTON_STEPS {
+        let (v, half_slope) = quad_at(a, b1, c2, t);
+        let first = dot(v, half_slope);
+        let slope_squared = dot(half_slope, half_slope);
+        // Half of B'' is c2; where the squared distance is not convex, step as Gauss and Newton.
+        let second = 2.0 * slope_squared + dot(v, c2);
+        let convex = if second > slope_squared {
+            second
+        } else {
+            2.0 * slope_squared
+        };
+        t = (t - first / convex.max(1e-6)).clamp(0.0, 1.0);
+    }
+    let (v, _) = quad_at(a, b1, c2, t);
+    dot(v, v)
+}
+
+/// Point and half the derivative.
+fn quad_at(a: Vec2, b1: Vec2, c2: Vec2, t: f32) -> (Vec2, Vec2) {
+    let half_slope = [b1[0] + c2[0] * t, b1[1] + c2[1] * t];
+    let v = [
+        a[0] + t * (b1[0] + half_slope[0]),
+        a[1] + t * (b1[1] + half_slope[1]),
+    ];
+    (v, half_slope)
+}
