@@ -59,6 +59,7 @@ use warning::Warnings;
 
 pub use config::{BakeConfig, Mode, Resources, Stage};
 pub use error::BakeError;
+pub use svg::font_selector;
 
 #[cfg(test)]
 mod corpus_tests;

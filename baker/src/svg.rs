@@ -13,6 +13,7 @@ use kurbo::{Affine, Rect};
 use crate::drawing::Shape;
 
 pub(crate) use cost::Cost;
+pub use fonts::font_selector;
 pub(crate) use source::parse;
 pub(crate) use walk::{WalkOptions, plan};
 

@@ -1,4 +1,5 @@
-//! Layers: subsets of shapes that never touch, each one MSDF stored as tiles.
+//! Layers: subsets of shapes that never touch. Those of its shapes that are distance fields share
+//! one logical MSDF, stored as tiles.
 
 use bytemuck::{Pod, Zeroable};
 

@@ -21,7 +21,7 @@ pub struct ShapeRecord {
     pub coverage: u32,
     /// [`FILL_NON_ZERO`] or [`FILL_EVEN_ODD`].
     pub fill_rule: u32,
-    /// Index of the layer it is packed into, or of its image; 0 for curves.
+    /// Index of the layer it is packed into, or of its image.
     pub layer_or_image: u32,
     /// Index into the paints; 0 for an image.
     pub paint: u32,

@@ -8,13 +8,22 @@ use vtex_format::WarningCode;
 
 use crate::warning::Warnings;
 
-/// usvg's own choice of fonts, telling what it could not find.
-pub(crate) fn resolver(warnings: &Warnings) -> FontResolver<'_> {
+/// How a bake chooses a face: usvg's own choice, else the first face there is. For those who draw
+/// the same SVG by other means and want the same glyphs.
+pub fn font_selector() -> usvg::FontSelectionFn<'static> {
     let select = FontResolver::default_font_selector();
+    Box::new(move |font, fonts| {
+        select(font, fonts).or_else(|| fonts.faces().next().map(|face| face.id))
+    })
+}
+
+/// [`font_selector`], telling what it could not find.
+pub(crate) fn resolver(warnings: &Warnings) -> FontResolver<'_> {
+    let select = font_selector();
     let fall_back = FontResolver::default_fallback_selector();
     FontResolver {
         select_font: Box::new(move |font, fonts: &mut Arc<Database>| {
-            let chosen = select(font, fonts).or_else(|| fonts.faces().next().map(|f| f.id));
+            let chosen = select(font, fonts);
             if !wanted_family_exists(font, fonts) {
                 let families = family_names(font);
                 let result = match chosen.and_then(|id| family_of(fonts, id)) {

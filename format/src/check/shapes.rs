@@ -40,9 +40,7 @@ pub(super) fn shapes(file: &VtexFile, issues: &mut Issues) {
             }
         };
         let (targets, paints) = match shape.coverage {
-            COVERAGE_MSDF => (file.layers.len(), file.paints.len()),
-            // Curves lie in no layer; theirs is 0.
-            COVERAGE_CURVES => (1, file.paints.len()),
+            COVERAGE_MSDF | COVERAGE_CURVES => (file.layers.len(), file.paints.len()),
             // An image brings its own colours; its paint is 0.
             COVERAGE_IMAGE => (file.images.len(), 1),
             _ => {
@@ -78,7 +76,7 @@ pub(super) fn layers(file: &VtexFile, issues: &mut Issues) {
     let mut members = vec![0_u32; file.layers.len()];
     for shape in &file.shapes {
         let layer = members.get_mut(shape.layer_or_image as usize);
-        if let Some(count) = layer.filter(|_| shape.coverage == COVERAGE_MSDF) {
+        if let Some(count) = layer.filter(|_| shape.coverage != COVERAGE_IMAGE) {
             *count += 1;
         }
     }

@@ -59,7 +59,7 @@ pub(crate) fn small() -> VtexFile {
             shape(COVERAGE_IMAGE, 1, 0),
             shape(COVERAGE_CURVES, 0, 1),
         ],
-        layers: vec![layer(0, 2, 1), layer(2, 1, 1)],
+        layers: vec![layer(0, 2, 2), layer(2, 1, 1)],
         cells: cells.map(|cell| cell.encode().unwrap()).to_vec(),
         entries: entries
             .iter()

@@ -57,10 +57,47 @@ impl FontLibrary {
             if !self.wanted.no_system_fonts {
                 fonts.load_system_fonts();
             }
+            name_generic_families(&mut fonts);
             Arc::new(fonts)
         };
         Arc::clone(self.loaded.get_or_init(load))
     }
+}
+
+/// Lets `serif`, `sans-serif` and so on, and every family that is missing, mean a face that is
+/// there. fontdb's own names are those of Windows.
+fn name_generic_families(fonts: &mut fontdb::Database) {
+    let present = |names: &[&str]| {
+        let named = |name: &&&str| {
+            let families = [fontdb::Family::Name(name)];
+            let query = fontdb::Query {
+                families: &families,
+                ..fontdb::Query::default()
+            };
+            fonts.query(&query).is_some()
+        };
+        names.iter().find(named).map(|name| (*name).to_owned())
+    };
+    let serif = present(&[
+        "Times New Roman",
+        "Liberation Serif",
+        "Noto Serif",
+        "DejaVu Serif",
+    ]);
+    let sans = present(&["Arial", "Liberation Sans", "Noto Sans", "DejaVu Sans"]);
+    let mono = present(&[
+        "Courier New",
+        "Liberation Mono",
+        "Noto Sans Mono",
+        "DejaVu Sans Mono",
+    ]);
+    let any = serif.clone().or_else(|| sans.clone()).or(mono.clone());
+    let Some(any) = any else { return };
+    fonts.set_serif_family(serif.unwrap_or_else(|| any.clone()));
+    fonts.set_sans_serif_family(sans.unwrap_or_else(|| any.clone()));
+    fonts.set_monospace_family(mono.unwrap_or_else(|| any.clone()));
+    fonts.set_cursive_family(any.clone());
+    fonts.set_fantasy_family(any);
 }
 
 fn describe(face: &fontdb::FaceInfo) -> String {

@@ -51,6 +51,8 @@ impl Reference {
         }
         // usvg's own resolver reads any local file an SVG names.
         options.image_href_resolver.resolve_string = Box::new(|_, _| None);
+        // Glyphs of another face would be compared otherwise.
+        options.font_resolver.select_font = vtex_baker::font_selector();
         let tree = usvg::Tree::from_data(svg, &options).map_err(|error| error.to_string())?;
         Ok(Self { tree })
     }
