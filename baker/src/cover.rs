@@ -155,11 +155,6 @@ impl Cutter {
 }
 
 impl Placed {
-    /// Whether it is to be a distance field.
-    pub(crate) fn is_msdf(&self) -> bool {
-        self.is_shape() && !self.is_curves()
-    }
-
     /// Whether it is to be curve records.
     pub(crate) fn is_curves(&self) -> bool {
         matches!(self.kind, PlacedKind::Shape { verdict, .. } if verdict.coverage == Coverage::Curves)

@@ -127,7 +127,7 @@ fn pack_items(placed: &[Placed], lattice: &Lattice, scales: &Scales, merge: bool
     }
 }
 
-/// Layers are the ranks that hold shapes with distance fields.
+/// Layers are the ranks that hold shapes.
 struct Layers {
     of_rank: Vec<u32>,
     shape_counts: Vec<u32>,
@@ -137,7 +137,7 @@ impl Layers {
     fn new(placed: &[Placed], packing: &Packing) -> Self {
         let mut shapes_of_rank = vec![0; packing.count as usize];
         for (item, &rank) in placed.iter().zip(&packing.ranks) {
-            shapes_of_rank[rank as usize] += u32::from(item.is_msdf());
+            shapes_of_rank[rank as usize] += u32::from(item.is_shape());
         }
         let mut next = 0;
         let of_rank = shapes_of_rank

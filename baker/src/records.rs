@@ -52,7 +52,7 @@ pub(crate) fn shape_records(input: &CellInput<'_>, lattice: &Lattice) -> Vec<Sha
         let (coverage, layer_or_image, paint) = match item.kind {
             PlacedKind::Shape { verdict, .. } => match verdict.coverage {
                 Coverage::Msdf => (COVERAGE_MSDF, layer, paint_or_image),
-                Coverage::Curves => (COVERAGE_CURVES, 0, paint_or_image),
+                Coverage::Curves => (COVERAGE_CURVES, layer, paint_or_image),
             },
             PlacedKind::Patch => (COVERAGE_IMAGE, paint_or_image, 0),
         };

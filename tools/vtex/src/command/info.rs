@@ -142,8 +142,7 @@ fn shape_json(file: &VtexFile, index: usize, shape: &ShapeRecord) -> Value {
     let report = file.provenance.as_ref().and_then(|p| p.shapes.get(index));
     let place = match shape.coverage {
         COVERAGE_IMAGE => json!({"image": shape.layer_or_image}),
-        COVERAGE_MSDF => json!({"layer": shape.layer_or_image}),
-        _ => json!({}),
+        _ => json!({"layer": shape.layer_or_image}),
     };
     let mut record = json!({
         "coverage": coverage_name(shape.coverage),
@@ -179,7 +178,7 @@ fn coverage_counts(file: &VtexFile) -> String {
 /// Shapes of a layer by their place in the painter's order.
 fn members(file: &VtexFile, layer: u32) -> Vec<usize> {
     let in_layer =
-        |shape: &ShapeRecord| shape.coverage == COVERAGE_MSDF && shape.layer_or_image == layer;
+        |shape: &ShapeRecord| shape.coverage != COVERAGE_IMAGE && shape.layer_or_image == layer;
     let shapes = file.shapes.iter().enumerate();
     shapes
         .filter(|(_, shape)| in_layer(shape))
