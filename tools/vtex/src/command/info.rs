@@ -361,7 +361,6 @@ fn shapes(out: &mut String, file: &VtexFile, shown: usize) -> std::fmt::Result {
         let report = file.provenance.as_ref().and_then(|p| p.shapes.get(index));
         let place = match shape.coverage {
             COVERAGE_IMAGE => format!("image {}", shape.layer_or_image),
-            COVERAGE_CURVES => "curves".to_owned(),
             _ => shape.layer_or_image.to_string(),
         };
         let colour = match file.paints.get(shape.paint as usize) {
