@@ -256,19 +256,21 @@ fn tiles_side_by_side_share_their_border() {
 
 #[test]
 fn same_file_at_any_thread_count() {
-    let files: Vec<VtexFile> = [1, 2, 7]
-        .into_iter()
-        .map(|threads| {
-            let pool = rayon::ThreadPoolBuilder::new()
-                .num_threads(threads)
-                .build()
-                .unwrap();
-            pool.install(|| bake(random_drawing(4, 80), &msdf()))
-        })
-        .collect();
-    assert_eq!(files[0], files[1]);
-    assert_eq!(files[0], files[2]);
-    assert_eq!(files[0].to_bytes().unwrap(), files[2].to_bytes().unwrap());
+    let curves = BakeConfig {
+        mode: Mode::Curves,
+        ..BakeConfig::default()
+    };
+    for config in [msdf(), curves] {
+        let bake_on = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            let pool = pool.build().unwrap();
+            pool.install(|| bake(random_drawing(4, 80), &config))
+        };
+        let files = [1, 2, 7].map(bake_on);
+        assert_eq!(files[0], files[1]);
+        assert_eq!(files[0], files[2]);
+        assert_eq!(files[0].to_bytes().unwrap(), files[2].to_bytes().unwrap());
+    }
 }
 
 #[test]
