@@ -1,12 +1,15 @@
 //! Every real file of the corpus becomes a drawing that looks as resvg paints it. Slow: runs with
 //! `VTEX_SLOW=1` where the folder named by `VTEX_CORPUS` exists.
 
+#![expect(clippy::print_stdout, reason = "says when there is no corpus")]
+
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
 use crate::picture_tests::{compare, dump};
+use crate::testing::corpus_root;
 use crate::{BakeConfig, Mode, Resources, draw, raster};
 
 const SIZE: u32 = 512;
@@ -20,11 +23,12 @@ const ENDLESS: [&str; 4] = [
 ];
 
 fn corpus() -> Option<PathBuf> {
-    let named = std::env::var_os("VTEX_CORPUS").map(PathBuf::from);
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus");
-    let folder = named.unwrap_or(beside);
     let slow = std::env::var_os("VTEX_SLOW").is_some_and(|v| v == "1");
-    (slow && folder.is_dir()).then_some(folder)
+    let folder = slow.then(corpus_root).filter(|folder| folder.is_dir());
+    if folder.is_none() {
+        println!("not run: wants VTEX_SLOW=1 and a corpus");
+    }
+    folder
 }
 
 /// Fonts of the folder named by `VTEX_FONTS`, none without it.

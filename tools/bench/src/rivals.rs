@@ -69,18 +69,9 @@ pub(crate) fn minified_table(device: &Device, effort: Effort) -> Result<Table> {
         ("no texture".to_owned(), nothing_kernel(device)),
     ];
     let screen = Screen::new([1.0, 1.0]);
-    let count = effort.gpu_lookups;
-    let sets = [
-        screen.minified(count),
-        screen.whole(count),
-        screen.scattered(count),
-    ];
-    let mut table = lookups_table("Minified lookups", &kernels, device, &sets, effort)?;
-    let worst = disagreement(device, [&kernels[0].1, &kernels[1].1], &sets)?;
-    table.note(format!(
-        "The first two differ by at most {worst:.4} in linear light."
-    ));
-    Ok(table)
+    let near = screen.minified(effort.gpu_lookups);
+    let claim = ("Minified lookups", "linear light");
+    equals_table(claim, &kernels, device, near, effort)
 }
 
 /// One MSDF sample from a texture and from tiles in a buffer (decision 0001).
@@ -97,16 +88,27 @@ pub(crate) fn fetch_table(device: &Device, effort: Effort) -> Result<Table> {
         ("no texture".to_owned(), nothing_kernel(device)),
     ];
     let screen = Screen::new([1.0, 1.0]);
+    let near = screen.close([0.375, 0.375], effort.gpu_lookups);
+    let claim = ("One MSDF sample", "the median");
+    equals_table(claim, &kernels, device, near, effort)
+}
+
+/// Kernels of which the first two claim the same answer, looked up at `near`, at 1x and at random
+/// points; `claim` is the title and what the answer is.
+fn equals_table(
+    (title, answer): (&str, &str),
+    kernels: &Named,
+    device: &Device,
+    near: QuerySet,
+    effort: Effort,
+) -> Result<Table> {
+    let screen = Screen::new([1.0, 1.0]);
     let count = effort.gpu_lookups;
-    let sets = [
-        screen.close([0.375, 0.375], count),
-        screen.whole(count),
-        screen.scattered(count),
-    ];
-    let mut table = lookups_table("One MSDF sample", &kernels, device, &sets, effort)?;
+    let sets = [near, screen.whole(count), screen.scattered(count)];
+    let mut table = lookups_table(title, kernels, device, &sets, effort)?;
     let worst = disagreement(device, [&kernels[0].1, &kernels[1].1], &sets)?;
     table.note(format!(
-        "The first two differ by at most {worst:.6} in the median."
+        "The first two differ by at most {worst:.6} in {answer}."
     ));
     Ok(table)
 }
