@@ -11,6 +11,11 @@ const KIND_SHIFT: u32 = 28;
 pub(crate) const LAST_BIT: u32 = 1 << 27;
 const OPAQUE_BIT: u32 = 1 << 26;
 const INDEX_MASK: u32 = OPAQUE_BIT - 1;
+/// Paints, and images, that an entry can name.
+pub const MAX_INDEXED: u32 = 1 << 19;
+/// Segments, or changes of the winding, that a list may hold; an entry without any counts as one.
+/// Bounds every evaluator loop over them.
+pub const MAX_LIST_ITEMS: u32 = 1 << 15;
 
 /// One cell of the grid.
 ///
@@ -81,7 +86,7 @@ pub enum EntryKind {
 /// | 31..28 | [`EntryKind`] |
 /// | 27 | last entry of the cell, the backmost |
 /// | 26 | opaque: where coverage is 1 nothing behind shows |
-/// | 25..0 | paint index, or image index for [`EntryKind::Image`] |
+/// | 25..0 | paint index, or image index for [`EntryKind::Image`]; less than [`MAX_INDEXED`] |
 ///
 /// The second word is the tile index for [`EntryKind::Msdf`], for [`EntryKind::Curves`] the word
 /// offset of the record in the curve section, and 0 otherwise.
@@ -101,15 +106,16 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// The two words as stored; `None` when the index does not fit 26 bits.
+    /// The two words as stored; `None` when the index is [`MAX_INDEXED`] or more.
     pub fn encode(self) -> Option<[u32; 2]> {
         let last = if self.last { LAST_BIT } else { 0 };
         let opaque = if self.opaque { OPAQUE_BIT } else { 0 };
         let head = ((self.kind as u32) << KIND_SHIFT) | last | opaque | self.index;
-        (self.index <= INDEX_MASK).then_some([head, self.data])
+        (self.index < MAX_INDEXED).then_some([head, self.data])
     }
 
-    /// Reads two stored words; `None` for an unknown kind or a stray second word.
+    /// Reads two stored words; `None` for an unknown kind, an index out of range or a
+    /// stray second word.
     pub fn decode([head, data]: [u32; 2]) -> Option<Self> {
         let kind = match head >> KIND_SHIFT {
             0 if data == 0 => EntryKind::Full,
@@ -118,11 +124,12 @@ impl Entry {
             3 if data == 0 => EntryKind::Image,
             _ => return None,
         };
-        Some(Self {
+        let index = head & INDEX_MASK;
+        (index < MAX_INDEXED).then_some(Self {
             kind,
             last: head & LAST_BIT != 0,
             opaque: head & OPAQUE_BIT != 0,
-            index: head & INDEX_MASK,
+            index,
             data,
         })
     }

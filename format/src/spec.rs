@@ -52,8 +52,11 @@ impl Features {
     pub const TEXTURE_MATRIX: u32 = 1 << 7;
     /// Some entry is a curve record.
     pub const CURVES: u32 = 1 << 8;
+    /// Lookups may filter over footprints; without it they are points (a loader's choice, of which
+    /// a file says nothing).
+    pub const RAMPS: u32 = 1 << 9;
     /// All bits this version knows.
-    pub const ALL: u32 = (1 << 9) - 1;
+    pub const ALL: u32 = (1 << 10) - 1;
 }
 
 /// The parts of a file that decide what its shader contains.

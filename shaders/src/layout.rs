@@ -28,56 +28,54 @@ macro_rules! shared_constants {
 }
 
 shared_constants! {
-/// Words of the header, by index.
+/// Words of the header, by index; what is read together lies in one group of four.
 mod header = "HEADER" {
     /// [`vtex_format::SHADER_ABI`].
     ABI = 0;
-    /// [`FilterMode`](super::FilterMode).
-    FILTER = 1;
-    /// [`vtex_format::AddressMode`] along u.
-    ADDRESS_U = 2;
-    /// [`vtex_format::AddressMode`] along v.
-    ADDRESS_V = 3;
-    /// Six floats a b c d e f: `u' = a u + c v + e`, `v' = b u + d v + f`.
-    TEXTURE_MATRIX = 4;
-    /// Two floats: cells a unit of uv.
-    CELL_FROM_UV_SCALE = 10;
-    /// Two floats: lattice origin.
-    CELL_FROM_UV_OFFSET = 12;
-    /// Two integers: columns and rows.
-    GRID_SIZE = 14;
-    /// Lattice steps of an MSDF tile along a cell.
-    TEXELS_PER_CELL = 16;
-    /// Float: full distance range in texels.
-    DISTANCE_RANGE = 17;
-    /// Float: half width S of \[SFG22\] eq. 1.
-    SMOOTHING = 18;
-    /// Float: eq. 2's width in texels; 0 when off.
-    OUTLINE_WIDTH = 19;
-    /// Paint index of eq. 2's outline.
-    OUTLINE_PAINT = 20;
-    /// First word of the cells.
-    CELLS = 21;
-    /// First word of the entries.
-    ENTRIES = 22;
-    /// First word of the paints, [`paint::WORDS`](super::paint::WORDS) each.
-    PAINTS = 23;
-    /// First word of the tiles, `(texels_per_cell + 1)^2` each, one RGBA8 texel a word.
-    TILES = 24;
-    /// First word of the image records, [`image::WORDS`](super::image::WORDS) each.
-    IMAGES = 25;
-    /// Number of images.
-    IMAGE_COUNT = 26;
     /// Bits of [`vtex_format::Features`].
-    FEATURES = 27;
+    FEATURES = 1;
+    /// [`FilterMode`](super::FilterMode).
+    FILTER = 2;
+    /// [`vtex_format::AddressMode`] along u.
+    ADDRESS_U = 4;
+    /// [`vtex_format::AddressMode`] along v.
+    ADDRESS_V = 5;
+    /// Float: full distance range in texels.
+    DISTANCE_RANGE = 6;
+    /// Float: half width S of \[SFG22\] eq. 1.
+    SMOOTHING = 7;
+    /// Six floats a b c d e f: `u' = a u + c v + e`, `v' = b u + d v + f`.
+    TEXTURE_MATRIX = 8;
+    /// Float: eq. 2's width in texels; 0 when off.
+    OUTLINE_WIDTH = 14;
+    /// Paint index of eq. 2's outline.
+    OUTLINE_PAINT = 15;
+    /// Four floats: cells a unit of uv along both axes, then the lattice origin in cells.
+    CELL_FROM_UV = 16;
+    /// Four floats: columns and rows of fine cells, fine cells along a cell, and its inverse.
+    FINE = 20;
     /// Float: units of the curve lattice along a cell.
-    CURVE_UNITS = 28;
-    /// Float: units by which a curve record's box is wider than its cell, on each side.
-    CURVE_MARGIN = 29;
-    /// First word of the curve records.
-    CURVES = 30;
+    CURVE_UNITS = 24;
+    /// Float: units by which a cell's box is wider than the cell, on each side.
+    CURVE_MARGIN = 25;
+    /// Lattice steps of an MSDF tile along a cell.
+    TEXELS_PER_CELL = 26;
+    /// Float: texels of mip 0 along a cell.
+    MIP_TEXELS_PER_CELL = 27;
+    /// First word of the fine cells.
+    CELLS = 28;
+    /// First word of the items, [`item::WORDS`](super::item::WORDS) each.
+    ITEMS = 29;
+    /// First word of the paints, [`paint::WORDS`](super::paint::WORDS) each.
+    PAINTS = 30;
+    /// First word of the tiles, `(texels_per_cell + 1)^2` each, one RGBA8 texel a word.
+    TILES = 31;
+    /// First word of the image records, [`image::WORDS`](super::image::WORDS) each.
+    IMAGES = 32;
+    /// Two integers: texels of image 0's level 0; then its number of levels.
+    MIP_SIZE = 33;
     /// Words of the header; the rest are zero.
-    WORDS = 32;
+    WORDS = 36;
 }
 
 /// [`FilterMode`] as stored.
@@ -110,7 +108,7 @@ mod feature = "FEATURE" {
     MASK = vtex_format::Features::MASK;
 }
 
-/// Parts of a cell's word: [`vtex_format::CellWord`].
+/// Parts of a fine cell's word: tags as of [`vtex_format::CellWord`], a list's payload counts items.
 mod cell = "CELL" {
     /// Position of the tag.
     TAG_SHIFT = vtex_format::CELL_TAG_SHIFT;
@@ -124,34 +122,49 @@ mod cell = "CELL" {
     LIST = 2;
 }
 
-/// Parts of an entry's first word: [`vtex_format::Entry`].
-mod entry = "ENTRY" {
-    /// Words of an entry.
-    WORDS = 2;
-    /// Position of the kind.
-    KIND_SHIFT = 28;
-    /// Set in the last, backmost entry.
-    LAST_BIT = 1 << 27;
-    /// Set where nothing behind a coverage of 1 shows.
-    OPAQUE_BIT = 1 << 26;
+/// An item of a list, four words. Curves are an item a segment: upper end, control point, lower
+/// end (x in the low half, y in the high half) and the word whose parts these are. Any other entry
+/// is one item whose first word is [`vtex_format::Entry::data`]. The last item of an entry carries
+/// what belongs to all of it: index, base, kind, rule, opaque and last.
+mod item = "ITEM" {
+    /// Words of an item.
+    WORDS = 4;
     /// Bits of the paint or image index.
-    INDEX_MASK = OPAQUE_BIT - 1;
+    INDEX_MASK = vtex_format::MAX_INDEXED - 1;
+    /// Set in an item that is no edge: it changes the winding, or nothing.
+    GHOST_BIT = 1 << 19;
+    /// Left shift that brings the base winding, four bits in two's complement, to the word's top.
+    BASE_LEFT = 8;
+    /// Right shift that brings it down from there.
+    BASE_RIGHT = 28;
+    /// Bits of the entry's kind.
+    KIND_MASK = 3 << 24;
     /// [`vtex_format::EntryKind::Full`].
-    FULL = vtex_format::EntryKind::Full as u32;
+    FULL = (vtex_format::EntryKind::Full as u32) << 24;
     /// [`vtex_format::EntryKind::Msdf`].
-    MSDF = vtex_format::EntryKind::Msdf as u32;
+    MSDF = (vtex_format::EntryKind::Msdf as u32) << 24;
     /// [`vtex_format::EntryKind::Curves`].
-    CURVES = vtex_format::EntryKind::Curves as u32;
+    CURVES = (vtex_format::EntryKind::Curves as u32) << 24;
     /// [`vtex_format::EntryKind::Image`].
-    IMAGE = vtex_format::EntryKind::Image as u32;
+    IMAGE = (vtex_format::EntryKind::Image as u32) << 24;
+    /// Set in a straight segment, whose control point is its upper end.
+    LINE_BIT = 1 << 26;
+    /// Set in a segment along which the outline runs down.
+    DOWN_BIT = 1 << 27;
+    /// Set where an odd winding fills instead of one that is not zero.
+    EVEN_ODD_BIT = 1 << 28;
+    /// Set in the last item of an entry.
+    END_BIT = 1 << 29;
+    /// Set in the last, backmost item of a list.
+    LAST_BIT = 1 << 30;
+    /// Set where nothing behind a coverage of 1 shows.
+    OPAQUE_BIT = 1 << 31;
+    /// Bound of every loop over the items of a list.
+    LIMIT = vtex_format::MAX_LIST_ITEMS;
 }
 
-/// Parts of a curve record's header: [`vtex_format::CurveHeader`].
+/// Of curves.
 mod curve = "CURVE" {
-    /// Of a count of segments.
-    COUNT_MASK = vtex_format::MAX_CURVE_SEGMENTS;
-    /// Of the count of steps.
-    STEP_MASK = vtex_format::MAX_CURVE_STEPS;
     /// Newton steps towards the nearest point of a quadratic. With the start at the point's own
     /// parameter the error is below a hundredth of a unit after three where it matters.
     NEWTON_STEPS = 4;
@@ -182,6 +195,10 @@ mod image = "IMAGE" {
     LEVELS = 8;
     /// Words of a texel.
     TEXEL_WORDS = 2;
+    /// Texels of a trilinear lookup.
+    TAPS = 8;
+    /// A weight of less than one in so many is none: half a step of eight bits.
+    WEIGHT_STEPS = 512;
 }
 }
 
@@ -239,11 +256,11 @@ pub const BATCH_QUERY: RecordLayout =
 
 #[cfg(test)]
 mod tests {
-    use super::{cell, entry};
-    use vtex_format::{CellWord, Entry, EntryKind};
+    use super::cell;
+    use vtex_format::CellWord;
 
     #[test]
-    fn cells_and_entries_decode_as_the_format_encodes_them() {
+    fn cells_decode_as_the_format_encodes_them() {
         let word = CellWord::Solid { paint: 5 }.encode().unwrap();
         assert_eq!(
             (word >> cell::TAG_SHIFT, word & cell::PAYLOAD_MASK),
@@ -254,22 +271,5 @@ mod tests {
             (word >> cell::TAG_SHIFT, word & cell::PAYLOAD_MASK),
             (cell::LIST, 6)
         );
-        for (last, opaque) in [(false, false), (true, false), (false, true)] {
-            let kind = EntryKind::Msdf;
-            let encoded = Entry {
-                kind,
-                last,
-                opaque,
-                index: 77,
-                data: 9,
-            }
-            .encode()
-            .unwrap();
-            assert_eq!(encoded.len(), entry::WORDS as usize);
-            assert_eq!(encoded[0] >> entry::KIND_SHIFT, entry::MSDF);
-            assert_eq!(encoded[0] & entry::INDEX_MASK, 77);
-            assert_eq!(encoded[0] & entry::LAST_BIT != 0, last);
-            assert_eq!(encoded[0] & entry::OPAQUE_BIT != 0, opaque);
-        }
     }
 }

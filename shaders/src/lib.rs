@@ -20,6 +20,8 @@ mod link;
 mod pack;
 #[cfg(feature = "precompile")]
 mod precompile;
+pub mod record;
+mod refine;
 mod sources;
 mod spec;
 mod specialize;

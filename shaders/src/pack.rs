@@ -8,7 +8,11 @@ use vtex_format::{
 
 use crate::cpu::{color, to_f32};
 use crate::layout::{FilterMode, header, image};
+use crate::refine::refine;
 use crate::spec::spec_key_with;
+
+/// Evaluators read four words at a time.
+const GROUP_WORDS: usize = 4;
 
 /// What a caller sets or overrides when a texture is loaded.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,16 +40,23 @@ impl PackOptions {
     }
 }
 
-/// The words of `file`, laid out as [`header`] says, with every offset relative to the first.
+/// The words of `file`, laid out as [`header`] says, with every offset relative to the first. Their
+/// number is a multiple of four, as is to be the index of the first in a larger buffer.
 ///
 /// The words go with the text of [`spec_key_with`] of the same file and options. `file` is to be
 /// one that the format's validator finds nothing in; another gives a wrong picture, never a panic.
 pub fn pack(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
-    let mut words = header_words(file, options, &spec_key_with(file, options));
-    let counts = [&file.cells, &file.entries, &file.curves].map(Vec::len);
-    words.reserve(counts.iter().sum::<usize>() + file.tiles.len() / 4);
-    section(&mut words, header::CELLS, &file.cells);
-    section(&mut words, header::ENTRIES, &file.entries);
+    let key = spec_key_with(file, options);
+    let distances = key.features & (Features::RAMPS | Features::OUTLINE) != 0;
+    let refined = refine(file, distances);
+    let mut words = header_words(file, options, &key);
+    let fine = |axis: usize| to_f32(file.meta.grid.size_cells[axis] << refined.depth);
+    let per_cell = to_f32(1 << refined.depth);
+    let sizes = [fine(0), fine(1), per_cell, 1.0 / per_cell].map(f32::to_bits);
+    words[header::FINE as usize..][..4].copy_from_slice(&sizes);
+    words.reserve(refined.words.len() + 4 * refined.items.len() + file.tiles.len() / 4);
+    section(&mut words, header::CELLS, &refined.words);
+    section(&mut words, header::ITEMS, refined.items.as_flattened());
     let paints: Vec<u32> = file.paints.iter().flat_map(paint_words).collect();
     section(&mut words, header::PAINTS, &paints);
     let texels = file.tiles.chunks_exact(4);
@@ -53,8 +64,8 @@ pub fn pack(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
         .map(|t| u32::from_le_bytes([t[0], t[1], t[2], t[3]]))
         .collect();
     section(&mut words, header::TILES, &tiles);
-    section(&mut words, header::CURVES, &file.curves);
     image_words(&mut words, &file.images);
+    words.resize(words.len().next_multiple_of(GROUP_WORDS), 0);
     words
 }
 
@@ -66,31 +77,24 @@ fn header_words(file: &VtexFile, options: &PackOptions, key: &SpecKey) -> Vec<u3
         words[at as usize..][..values.len()].copy_from_slice(values);
     };
     put(header::ABI, &[SHADER_ABI]);
+    put(header::FEATURES, &[key.features]);
     put(header::FILTER, &[options.filter as u32]);
     put(header::ADDRESS_U, &sampler.address.map(|mode| mode as u32));
+    put(
+        header::DISTANCE_RANGE,
+        &[file.meta.distance_range_texels, sampler.smoothing].map(f32::to_bits),
+    );
     put(
         header::TEXTURE_MATRIX,
         &sampler.texture_matrix.map(f32::to_bits),
     );
-    put(
-        header::CELL_FROM_UV_SCALE,
-        &grid.cell_from_uv_scale.map(f32::to_bits),
-    );
-    put(
-        header::CELL_FROM_UV_OFFSET,
-        &grid.cell_from_uv_offset.map(f32::to_bits),
-    );
-    put(header::GRID_SIZE, &grid.size_cells);
-    put(header::TEXELS_PER_CELL, &[grid.texels_per_cell]);
-    put(
-        header::DISTANCE_RANGE,
-        &[file.meta.distance_range_texels.to_bits()],
-    );
-    put(header::SMOOTHING, &[sampler.smoothing.to_bits()]);
     if let (Some(outline), true) = (sampler.outline, key.features & Features::OUTLINE != 0) {
         put(header::OUTLINE_WIDTH, &[outline.width_texels.to_bits()]);
         put(header::OUTLINE_PAINT, &[outline.paint]);
     }
+    let [scale, offset] = [grid.cell_from_uv_scale, grid.cell_from_uv_offset];
+    let cell_from_uv = [scale[0], scale[1], offset[0], offset[1]];
+    put(header::CELL_FROM_UV, &cell_from_uv.map(f32::to_bits));
     if let Some(lattice) = file.meta.curve_lattice {
         let units = [lattice.units_per_cell, lattice.margin_units];
         put(
@@ -98,12 +102,17 @@ fn header_words(file: &VtexFile, options: &PackOptions, key: &SpecKey) -> Vec<u3
             &units.map(|units| to_f32(units).to_bits()),
         );
     }
-    put(header::FEATURES, &[key.features]);
+    put(header::TEXELS_PER_CELL, &[grid.texels_per_cell]);
+    if let Some(canvas) = file.images.first() {
+        let texels = to_f32(canvas.size[0]) / scale[0];
+        put(header::MIP_TEXELS_PER_CELL, &[texels.to_bits()]);
+    }
     words
 }
 
-/// Appends a section and writes its first word into the header.
+/// Appends a section at the next group of four words and writes its first word into the header.
 fn section(words: &mut Vec<u32>, header_word: u32, values: &[u32]) {
+    words.resize(words.len().next_multiple_of(GROUP_WORDS), 0);
     words[header_word as usize] = word_index(words.len());
     words.extend_from_slice(values);
 }
@@ -120,9 +129,14 @@ fn paint_words(paint: &PaintRecord) -> [u32; 8] {
 }
 
 fn image_words(words: &mut Vec<u32>, images: &[Image]) {
+    words.resize(words.len().next_multiple_of(GROUP_WORDS), 0);
     let records = words.len();
     words[header::IMAGES as usize] = word_index(records);
-    words[header::IMAGE_COUNT as usize] = word_index(images.len());
+    if let Some(canvas) = images.first() {
+        let [width, height] = canvas.size;
+        let about = [width, height, word_index(canvas.mips.len())];
+        words[header::MIP_SIZE as usize..][..3].copy_from_slice(&about);
+    }
     words.resize(records + images.len() * image::WORDS as usize, 0);
     let halves = TexelHalves::new();
     for (index, stored) in images.iter().enumerate() {

@@ -6,6 +6,7 @@ use vtex_format::{
     VtexFile,
 };
 
+use crate::layout::FilterMode;
 use crate::pack::PackOptions;
 
 /// The key of `file` as it is stored.
@@ -26,14 +27,18 @@ pub fn spec_key(file: &VtexFile) -> SpecKey {
 /// The key of `file` once the overrides in `options` are applied.
 pub fn spec_key_with(file: &VtexFile, options: &PackOptions) -> SpecKey {
     let sampler = options.applied_to(&file.meta.sampler);
-    spec_key_from_parts(&SpecParts {
+    let mut key = spec_key_from_parts(&SpecParts {
         sampler: &sampler,
         texels_per_cell: file.meta.grid.texels_per_cell,
         paints: &file.paints,
         cells: &file.cells,
         entries: &file.entries,
         canvas_mips: has_canvas_mips(&file.images, &file.entries),
-    })
+    });
+    if options.filter != FilterMode::Point {
+        key.features |= Features::RAMPS;
+    }
+    key
 }
 
 /// As [`SpecKey::for_parts`].
@@ -62,7 +67,7 @@ pub(crate) fn normalized(key: &SpecKey) -> SpecKey {
         features &= !LISTED;
     }
     if features & (Features::MSDF | Features::CURVES) == 0 {
-        features &= !Features::OUTLINE;
+        features &= !(Features::OUTLINE | Features::RAMPS);
     }
     if features & Features::IMAGES != 0 {
         features |= Features::TRANSLUCENT;

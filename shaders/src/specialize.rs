@@ -23,7 +23,7 @@ pub struct BindingSlot {
 }
 
 /// WGSL for other people's shaders: declares `vtex_words`, a read-only storage buffer
-/// `array<u32>` at `slot`, and `fn vtex_sample(uv: vec2f, footprint: vec4f) -> vec4f`.
+/// `array<vec4u>` at `slot`, and `fn vtex_sample(uv: vec2f, footprint: vec4f) -> vec4f`.
 ///
 /// Every name in it starts with `vtex_`, `Vtex` or `VTEX_`. The buffer holds one packed texture
 /// of this key. Same key and slot, same text.
@@ -110,7 +110,7 @@ fn single_context(key: &SpecKey, slot: BindingSlot) -> LinkContext {
 }
 
 fn binding(BindingSlot { group, binding }: BindingSlot) -> String {
-    format!("@group({group}) @binding({binding}) var<storage, read> vtex_words: array<u32>;\n\n")
+    format!("@group({group}) @binding({binding}) var<storage, read> vtex_words: array<vec4u>;\n\n")
 }
 
 /// The modules that a set of features needs.
@@ -133,9 +133,27 @@ fn slots(features: u32) -> LinkContext {
         // Without edges nothing imports it.
         (_, false) => "vtex/edge_msdf",
     };
+    // [SFG22] eq. 2 draws by distance in every filter mode.
+    let ramps = has(Features::RAMPS) || has(Features::OUTLINE);
     let composite = match composites {
-        true => "vtex/composite_translucent",
+        true => "vtex/composite_ramp",
         false => "vtex/composite_front",
+    };
+    let cells = match (has(Features::LISTS), ramps) {
+        (true, true) => "vtex/cells_list",
+        (true, false) => "vtex/cells_point",
+        (false, _) => "vtex/cells_solid",
+    };
+    let inside = match (has(Features::MSDF), has(Features::CURVES)) {
+        (true, true) => "vtex/inside_any",
+        (false, true) => "vtex/inside_curves",
+        (true, false) => "vtex/inside_msdf",
+        (false, false) => "vtex/inside_full",
+    };
+    let hit = match (has(Features::TRANSLUCENT), has(Features::MASK)) {
+        (false, _) => "vtex/hit_first",
+        (true, false) => "vtex/hit_over",
+        (true, true) => "vtex/hit_alpha",
     };
     [
         (
@@ -162,10 +180,9 @@ fn slots(features: u32) -> LinkContext {
             "vtex/minify",
             pick(Features::MIPS, "vtex/minify_mips", "vtex/minify_none"),
         ),
-        (
-            "vtex/cells",
-            pick(Features::LISTS, "vtex/cells_list", "vtex/cells_solid"),
-        ),
+        ("vtex/cells", cells),
+        ("vtex/inside", inside),
+        ("vtex/hit", hit),
         (
             "vtex/source",
             pick(Features::IMAGES, "vtex/source_image", "vtex/source_solid"),

@@ -8,7 +8,7 @@ use vtex_format::{Features, VtexFile};
 use vtex_shaders::cpu::Sampler;
 use vtex_shaders::{
     BatchQuery, BindingSlot, FilterMode, PackOptions, batch_kernel, link, pack, scene_context,
-    shader_blob, spec_key,
+    shader_blob, spec_key, spec_key_with,
 };
 use vtex_tests::fixture::random_texture;
 use vtex_tests::gpu::Gpu;
@@ -64,7 +64,7 @@ const CASES: [(&str, u32); 14] = [
         "mask",
         COLOR | Features::IMAGES | Features::MASK | Features::MIPS | Features::OUTLINE,
     ),
-    ("all", Features::ALL & !Features::MASK),
+    ("all", Features::ALL & !(Features::MASK | Features::RAMPS)),
 ];
 
 /// Points up to `margin` outside the canvas; footprints from none to the whole of it.
@@ -145,17 +145,15 @@ struct Lookups {
 }
 
 fn check_file(gpu: &Gpu, name: &str, file: &VtexFile, lookups: &Lookups) {
-    let text = batch_kernel(&spec_key(file));
-    let kernel = gpu.kernel(wgpu::ShaderSource::Wgsl(Cow::Owned(text)));
     let filters = [FilterMode::Point, FilterMode::Footprint, FilterMode::Paper];
     for (filter, count) in filters.into_iter().zip(lookups.counts) {
-        let words = pack(
-            file,
-            &PackOptions {
-                filter,
-                ..PackOptions::default()
-            },
-        );
+        let options = PackOptions {
+            filter,
+            ..PackOptions::default()
+        };
+        let text = batch_kernel(&spec_key_with(file, &options));
+        let kernel = gpu.kernel(wgpu::ShaderSource::Wgsl(Cow::Owned(text)));
+        let words = pack(file, &options);
         let queries = random_queries(u64::from(count), count, lookups.margin);
         let answers = kernel.run(&words, &queries);
         let expected = twin(&words, &queries);
@@ -242,15 +240,15 @@ fn scenes_look_up_each_texture_as_if_it_were_alone() {
         .iter()
         .map(|(_, features)| random_texture(5, *features))
         .collect();
-    let union = files
-        .iter()
-        .fold(0, |union, file| union | spec_key(file).features);
     for filter in [FilterMode::Point, FilterMode::Footprint] {
         let options = PackOptions {
             filter,
             ..PackOptions::default()
         };
         let packed: Vec<Vec<u32>> = files.iter().map(|file| pack(file, &options)).collect();
+        let union = files.iter().fold(0, |union, file| {
+            union | spec_key_with(file, &options).features
+        });
         let mut bases = Vec::new();
         let mut words = Vec::new();
         for texture in &packed {

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use kurbo::{BezPath, ParamCurve, ParamCurveExtrema, ParamCurveNearest, PathSeg, Point};
 use vtex_format::{CurveHeader, CurveLattice};
-use vtex_shaders::cpu::curve;
+use vtex_shaders::record as curve;
 
 use super::{
     lower::{LoweredOutline, Segment},

@@ -7,7 +7,9 @@ use super::{Lookup, Sampler, Value};
 /// One entry of a list and its outline at a lookup.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry<V> {
+    /// The last word of its last item, and what follows the item.
     pub(super) head: u32,
+    pub(super) next: u32,
     /// Of the shape and of the ring.
     pub(super) coverage: (f32, f32),
     /// Their colours, 0 where they do not cover.
@@ -16,18 +18,19 @@ pub(super) struct Entry<V> {
 }
 
 impl<V: Value> Entry<V> {
-    pub(super) fn new(sampler: &Sampler<'_>, words: [u32; 2], lookup: &Lookup) -> Self {
-        let coverage = coverage(sampler, words, lookup);
+    pub(super) fn new(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) -> Self {
+        let covered = coverage(sampler, first, lookup);
         let mut entry = Self {
-            head: words[0],
-            coverage,
+            head: covered.item[3],
+            next: covered.next,
+            coverage: covered.coverage,
             value: V::ZERO,
             ring: V::ZERO,
         };
-        if coverage.0 > 0.0 {
-            entry.value = source(sampler, words[0], lookup);
+        if entry.coverage.0 > 0.0 {
+            entry.value = source(sampler, entry.head, lookup);
         }
-        if coverage.1 > 0.0 {
+        if entry.coverage.1 > 0.0 {
             entry.ring = V::solid(sampler, sampler.settings.outline_paint);
         }
         entry

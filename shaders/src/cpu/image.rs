@@ -13,8 +13,16 @@ fn neighbour(index: f32, count: f32, wraps: bool) -> f32 {
     }
 }
 
-fn weighted<V: Value>(a: V, b: V, t: f32) -> V {
-    a.scaled(1.0 - t).plus(b.scaled(t))
+/// A weight between two sides, of which the lesser is left out where it cannot be seen.
+pub(super) fn weight(weight: f32) -> f32 {
+    let least = 1.0 / to_f32(image::WEIGHT_STEPS);
+    if weight < least {
+        0.0
+    } else if weight > 1.0 - least {
+        1.0
+    } else {
+        weight
+    }
 }
 
 /// `t` in \[0, 1\] over the image.
@@ -26,29 +34,32 @@ fn bilinear<V: Value>(
     wraps: [bool; 2],
 ) -> V {
     let full: [u32; 2] = sampler.words(record.wrapping_add(image::SIZE));
-    let size = full.map(|side| (side >> level).max(1));
-    let mut near = [0; 2];
-    let mut far = [0; 2];
-    let mut f = [0.0; 2];
+    let size = full.map(|side| side.checked_shr(level).unwrap_or(0).max(1));
+    // Near and far neighbour along each axis.
+    let mut texels = [[0; 2]; 2];
+    let mut weights = [[0.0; 2]; 2];
     for axis in 0..2 {
         let count = to_f32(size[axis]);
         let x = t[axis] * count - 0.5;
         let corner = x.floor();
-        f[axis] = x - corner;
-        near[axis] = to_u32(neighbour(corner, count, wraps[axis]));
-        far[axis] = to_u32(neighbour(corner + 1.0, count, wraps[axis]));
+        let f = x - corner;
+        weights[axis] = [1.0 - f, f];
+        texels[axis] = [corner, corner + 1.0].map(|x| to_u32(neighbour(x, count, wraps[axis])));
     }
     let first = sampler.word(record.wrapping_add(image::LEVELS).wrapping_add(level));
-    let texel = |x: u32, y: u32| {
-        let index = y.wrapping_mul(size[0]).wrapping_add(x);
-        V::texel(
+    let mut value = V::ZERO;
+    for tap in 0..4 {
+        let [near, far] = [tap & 1, tap >> 1];
+        let index = texels[1][far]
+            .wrapping_mul(size[0])
+            .wrapping_add(texels[0][near]);
+        let texel = V::texel(
             sampler,
             first.wrapping_add(index.wrapping_mul(image::TEXEL_WORDS)),
-        )
-    };
-    let top = weighted(texel(near[0], near[1]), texel(far[0], near[1]), f[0]);
-    let bottom = weighted(texel(near[0], far[1]), texel(far[0], far[1]), f[0]);
-    weighted(top, bottom, f[1])
+        );
+        value = value.plus(texel.scaled(weights[0][near] * weights[1][far]));
+    }
+    value
 }
 
 /// `lod` 0 is the finest level; less is 0, and the last level is kept beyond the end.
@@ -63,16 +74,15 @@ pub(super) fn trilinear<V: Value>(
     let coarsest = to_f32(count.max(1) - 1);
     let kept = clamp(lod, 0.0, coarsest.min(15.0));
     let level = kept.floor();
-    let f = kept - level;
-    let fine = bilinear(sampler, record, to_u32(level), t, wraps);
-    if f <= 0.0 {
-        return fine;
+    let coarse = weight(kept - level);
+    let mut value = V::ZERO;
+    for (step, weight) in [(0, 1.0 - coarse), (1, coarse)] {
+        if weight > 0.0 {
+            let texels: V = bilinear(sampler, record, to_u32(level) + step, t, wraps);
+            value = value.plus(texels.scaled(weight));
+        }
     }
-    weighted(
-        fine,
-        bilinear(sampler, record, to_u32(level) + 1, t, wraps),
-        f,
-    )
+    value
 }
 
 /// A patch that stands for what is not vector: nothing outside its rectangle.

@@ -9,7 +9,6 @@ mod cell;
 pub mod color;
 mod composite;
 mod coverage;
-pub mod curve;
 mod edge;
 mod entry;
 mod footprint;
@@ -20,7 +19,9 @@ mod minify;
 mod msdf;
 mod over;
 mod ramp;
+mod run;
 mod sample;
+mod segment;
 mod settings;
 mod source;
 mod value;
@@ -57,4 +58,18 @@ impl<'a> Sampler<'a> {
     pub fn sample(&self, uv: [f32; 2], footprint: [f32; 4]) -> [f32; 4] {
         sample::sample(self, uv, footprint)
     }
+}
+
+/// Whether the entry whose items `words` start with fills at `p`, in units of its cell's box.
+#[cfg(test)]
+pub(crate) fn items_fill(words: &[u32], p: [f32; 2]) -> bool {
+    run::run_at(&Sampler::new(words), 0, p, true).inside
+}
+
+/// How far its outline is, at most `reach`.
+#[cfg(test)]
+pub(crate) fn items_distance(words: &[u32], p: [f32; 2], reach: f32) -> f32 {
+    let mut sampler = Sampler::new(words);
+    sampler.settings.curve_lattice = [1.0, reach];
+    run::run_at(&sampler, 0, p, false).nearest.sqrt()
 }

@@ -3,11 +3,11 @@
 use super::entry::Entry;
 use super::source::encoded;
 use super::{Sampler, Value, color};
-use crate::layout::entry;
+use crate::layout::item;
 
 /// decode(paint over encode(behind)); `value` is the paint's colour.
 fn paint(sampler: &Sampler<'_>, head: u32, value: [f32; 4], behind: [f32; 4]) -> [f32; 4] {
-    if behind[3] <= 0.0 || head & entry::OPAQUE_BIT != 0 {
+    if behind[3] <= 0.0 || head & item::OPAQUE_BIT != 0 {
         return value;
     }
     if value[3] <= 0.0 {
@@ -20,7 +20,7 @@ fn paint(sampler: &Sampler<'_>, head: u32, value: [f32; 4], behind: [f32; 4]) ->
 
 /// Whether what lies behind shows in proportion to what the entry and its outline leave uncovered.
 pub(super) fn opaque(sampler: &Sampler<'_>, head: u32) -> bool {
-    head & sampler.settings.outline_head & entry::OPAQUE_BIT != 0
+    head & sampler.settings.outline_head & item::OPAQUE_BIT != 0
 }
 
 /// Of an entry that covers, or its outline: sRGB-encoded, premultiplied.

@@ -1,4 +1,4 @@
-//! Twin of `vtex/ramp.wgsl`: coverage from a signed distance in texels, inside positive.
+//! Twin of `vtex/ramp_any.wgsl` and `vtex/ramp_point.wgsl`: coverage from a signed distance in texels, inside positive.
 
 use super::Sampler;
 use super::math::{clamp, smoothstep, to_f32};

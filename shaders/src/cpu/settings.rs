@@ -3,7 +3,7 @@
 use vtex_format::Features;
 
 use super::words::word_of;
-use crate::layout::{entry, header, paint};
+use crate::layout::{header, item, paint};
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Settings {
@@ -12,8 +12,13 @@ pub(super) struct Settings {
     pub(super) texture_matrix: [f32; 6],
     pub(super) scale: [f32; 2],
     pub(super) offset: [f32; 2],
-    pub(super) grid_size: [u32; 2],
+    /// Columns and rows of fine cells.
+    pub(super) fine_size: [f32; 2],
+    /// Fine cells along a cell, and what of a cell one is.
+    pub(super) fine_per_cell: f32,
+    pub(super) cell_per_fine: f32,
     pub(super) texels_per_cell: u32,
+    pub(super) mip_texels_per_cell: f32,
     pub(super) distance_range: f32,
     pub(super) smoothing: f32,
     pub(super) outline_width: f32,
@@ -23,11 +28,10 @@ pub(super) struct Settings {
     /// Twin of `vtex_over_outline_head`; without outline one that hides nothing of `head`.
     pub(super) outline_head: u32,
     pub(super) cells: u32,
-    pub(super) entries: u32,
+    pub(super) items: u32,
     pub(super) paints: u32,
     pub(super) tiles: u32,
     pub(super) images: u32,
-    pub(super) curves: u32,
     /// Units of the curve lattice along a cell, and around it.
     pub(super) curve_lattice: [f32; 2],
     pub(super) features: u32,
@@ -43,22 +47,24 @@ impl Settings {
             filter: word(header::FILTER),
             address: [word(header::ADDRESS_U), word(header::ADDRESS_V)],
             texture_matrix: [0, 1, 2, 3, 4, 5].map(|i| float(m + i)),
-            scale: float2(header::CELL_FROM_UV_SCALE),
-            offset: float2(header::CELL_FROM_UV_OFFSET),
-            grid_size: [word(header::GRID_SIZE), word(header::GRID_SIZE + 1)],
+            scale: float2(header::CELL_FROM_UV),
+            offset: float2(header::CELL_FROM_UV + 2),
+            fine_size: float2(header::FINE),
+            fine_per_cell: float(header::FINE + 2),
+            cell_per_fine: float(header::FINE + 3),
             texels_per_cell: word(header::TEXELS_PER_CELL),
+            mip_texels_per_cell: float(header::MIP_TEXELS_PER_CELL),
             distance_range: float(header::DISTANCE_RANGE),
             smoothing: float(header::SMOOTHING),
             outline_width: float(header::OUTLINE_WIDTH),
             outline: false,
             outline_paint: word(header::OUTLINE_PAINT),
-            outline_head: entry::OPAQUE_BIT,
+            outline_head: item::OPAQUE_BIT,
             cells: word(header::CELLS),
-            entries: word(header::ENTRIES),
+            items: word(header::ITEMS),
             paints: word(header::PAINTS),
             tiles: word(header::TILES),
             images: word(header::IMAGES),
-            curves: word(header::CURVES),
             curve_lattice: float2(header::CURVE_UNITS),
             features: word(header::FEATURES),
         };
@@ -68,7 +74,7 @@ impl Settings {
                 .wrapping_mul(paint::WORDS)
                 .wrapping_add(settings.paints);
             let alpha = float(first.wrapping_add(paint::LINEAR + 3));
-            let opaque = if alpha >= 1.0 { entry::OPAQUE_BIT } else { 0 };
+            let opaque = if alpha >= 1.0 { item::OPAQUE_BIT } else { 0 };
             settings.outline = true;
             settings.outline_head = index | opaque;
         }

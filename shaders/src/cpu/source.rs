@@ -2,11 +2,11 @@
 
 use super::value::paint_first;
 use super::{Lookup, Sampler, Value, color, image};
-use crate::layout::{entry, paint};
+use crate::layout::{item, paint};
 
 pub(super) fn source<V: Value>(sampler: &Sampler<'_>, head: u32, lookup: &Lookup) -> V {
-    let index = head & entry::INDEX_MASK;
-    if head >> entry::KIND_SHIFT == entry::IMAGE {
+    let index = head & item::INDEX_MASK;
+    if head & item::KIND_MASK == item::IMAGE {
         return image::entry(sampler, index, lookup);
     }
     V::solid(sampler, index)
@@ -14,10 +14,10 @@ pub(super) fn source<V: Value>(sampler: &Sampler<'_>, head: u32, lookup: &Lookup
 
 /// sRGB-encoded, premultiplied. `value` is the same colour in linear light.
 pub(super) fn encoded(sampler: &Sampler<'_>, head: u32, value: [f32; 4]) -> [f32; 4] {
-    if head >> entry::KIND_SHIFT == entry::IMAGE {
+    if head & item::KIND_MASK == item::IMAGE {
         return color::encode_premultiplied(value);
     }
-    let first = paint_first(sampler, head & entry::INDEX_MASK);
+    let first = paint_first(sampler, head & item::INDEX_MASK);
     let [r, g, b, a] = sampler.word_float4(first.wrapping_add(paint::ENCODED));
     [r * a, g * a, b * a, a]
 }

@@ -20,9 +20,9 @@ impl Sampler<'_> {
         found.copied().unwrap_or([0; N])
     }
 
-    /// All words from `first` on.
-    pub(super) fn words_from(&self, first: u32) -> &[u32] {
-        self.words.get(first as usize..).unwrap_or(&[])
+    /// Whether nothing but zeros comes from `index` on: no walk over words goes on there.
+    pub(super) fn is_past(&self, index: u32) -> bool {
+        index as usize >= self.words.len()
     }
 
     pub(super) fn word_float(&self, index: u32) -> f32 {

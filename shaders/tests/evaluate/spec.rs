@@ -76,18 +76,28 @@ fn code_of_absent_features_is_not_in_the_text() {
         // An image's texels may be translucent.
         let translucent = lists && (has(Features::TRANSLUCENT) || images);
         let mask = has(Features::MASK);
+        let edges = msdf || curves;
+        // [SFG22] eq. 2 draws by distance whatever the filter.
+        let ramps = edges && (has(Features::RAMPS) || has(Features::OUTLINE));
         for (symbol, wanted) in [
-            ("vtex_composite", lists),
+            ("vtex_composite", ramps),
+            ("vtex_hit", lists && !ramps),
+            ("vtex_inside", lists && !ramps),
             ("vtex_msdf_", msdf),
             ("vtex_math_median", msdf),
             ("vtex_curve_", curves),
-            ("fn vtex_edge_in(", msdf || curves),
-            ("vtex_ramp_", msdf || curves),
+            ("vtex_segment_winding", curves),
+            ("vtex_segment_distance", curves && ramps),
+            ("fn vtex_edge(", ramps),
+            ("vtex_ramp_", ramps),
             ("vtex_image_", images || has(Features::MIPS)),
             ("vtex_texel", images || has(Features::MIPS)),
-            ("_outline", (msdf || curves) && has(Features::OUTLINE)),
-            ("vtex_over", translucent && !mask),
-            ("vtex_color_encode", translucent && !mask),
+            ("_outline", edges && has(Features::OUTLINE)),
+            ("vtex_over", translucent && !mask && ramps),
+            (
+                "vtex_color_encode",
+                translucent && !mask && (ramps || images),
+            ),
             ("vtex_color_decode", translucent && !mask),
             ("vtex_matrix_linear", has(Features::TEXTURE_MATRIX)),
             ("alias VtexValue = f32;", mask),

@@ -12,8 +12,11 @@ fn vtex_batch(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let index = (group.x + group.y * group_count.x) * 64u + lane;
-    if index < min(arrayLength(&vtex_queries), arrayLength(&vtex_results)) {
-        let query = vtex_queries[index];
-        vtex_results[index] = vtex_sample(query.uv, query.footprint);
+    // No branch around the lookup: see vtex/texture.
+    let count = min(arrayLength(&vtex_queries), arrayLength(&vtex_results));
+    let query = vtex_queries[min(index, max(count, 1u) - 1u)];
+    let result = vtex_sample(query.uv, query.footprint);
+    if index < count {
+        vtex_results[index] = result;
     }
 }

@@ -17,7 +17,7 @@ fn vtex_address_axis(t: f32, mode: u32) -> f32 {
     }
 }
 
-fn vtex_address(vt: u32, uv: vec2f) -> vec2f {
+fn vtex_address(vt: VtexTexture, uv: vec2f) -> vec2f {
     let modes = vtex_settings_address(vt);
     return vec2f(vtex_address_axis(uv.x, modes.x), vtex_address_axis(uv.y, modes.y));
 }
@@ -27,12 +27,12 @@ fn vtex_address_axis_outside(t: f32, mode: u32) -> bool {
 }
 
 // By axis: naga does not read its own SPIR-V back where `&` and `|` join vectors of bool.
-fn vtex_address_outside(vt: u32, uv: vec2f) -> bool {
+fn vtex_address_outside(vt: VtexTexture, uv: vec2f) -> bool {
     let modes = vtex_settings_address(vt);
     return vtex_address_axis_outside(uv.x, modes.x) || vtex_address_axis_outside(uv.y, modes.y);
 }
 
 // Axes along which the filter of image 0 reaches round to the other side.
-fn vtex_address_wraps(vt: u32) -> vec2<bool> {
+fn vtex_address_wraps(vt: VtexTexture) -> vec2<bool> {
     return vtex_settings_address(vt) == vec2u(VTEX_ADDRESS_REPEAT);
 }

@@ -1,11 +1,10 @@
 //!use core/layout
-//!use vtex/words
 //!use vtex/cell
 //!use vtex/paint
 //!use vtex/composite
-// The picture from cells.
+// The picture from cells where edges are ramps.
 
-fn vtex_cells(vt: u32, lookup: VtexLookup) -> VtexValue {
+fn vtex_cells(vt: VtexTexture, lookup: VtexLookup) -> VtexValue {
     let cell = vtex_cell(vt, lookup);
     let payload = cell.word & VTEX_CELL_PAYLOAD_MASK;
     switch cell.word >> VTEX_CELL_TAG_SHIFT {
@@ -13,8 +12,8 @@ fn vtex_cells(vt: u32, lookup: VtexLookup) -> VtexValue {
             return vtex_paint_solid(vt, payload);
         }
         case VTEX_CELL_LIST: {
-            let inside = VtexLookup(lookup.uv, lookup.scale, lookup.width_cells, cell.q);
-            return vtex_composite(vt, vtex_word(vt, VTEX_HEADER_ENTRIES) + payload, inside);
+            let inside = VtexLookup(lookup.uv, lookup.width_squared, cell.q);
+            return vtex_composite(vt, vt.items + payload * VTEX_ITEM_WORDS, inside);
         }
         default: {
             return VtexValue(0.0);

@@ -3,7 +3,7 @@
 //!use vtex/paint
 // The picture from cells that are empty or of a single colour.
 
-fn vtex_cells(vt: u32, lookup: VtexLookup) -> VtexValue {
+fn vtex_cells(vt: VtexTexture, lookup: VtexLookup) -> VtexValue {
     let word = vtex_cell(vt, lookup).word;
     if (word >> VTEX_CELL_TAG_SHIFT) == VTEX_CELL_EMPTY {
         return VtexValue(0.0);

@@ -1,6 +1,15 @@
+//!use core/layout
+//!use vtex/words
 //!use vtex/footprint
 // Coverage where every entry fills its cell.
 
-fn vtex_coverage(vt: u32, entry: vec2u, lookup: VtexLookup) -> f32 {
-    return 1.0;
+struct VtexCovered {
+    // The entry's only item and what follows it.
+    item: vec4u,
+    next: u32,
+    coverage: f32,
+}
+
+fn vtex_coverage(vt: VtexTexture, first: u32, lookup: VtexLookup) -> VtexCovered {
+    return VtexCovered(vtex_word4(vt, first), first + VTEX_ITEM_WORDS, 1.0);
 }

@@ -5,18 +5,22 @@
 //!use vtex/ramp
 // Coverage of an entry and of the ring around it, [SFG22] eq. 2.
 
-// x: the shape, y: the ring; their sum is at most 1.
-fn vtex_coverage_outline(vt: u32, entry: vec2u, lookup: VtexLookup) -> vec2f {
-    if !vtex_edge_in(entry) {
-        return vec2f(1.0, 0.0);
-    }
-    let distance = vtex_edge_distance(vt, entry, lookup.q, false);
-    let grown = distance + vtex_word_float(vt, VTEX_HEADER_OUTLINE_WIDTH);
-    let inner = vtex_ramp_coverage(vt, distance, lookup.width_cells);
-    let outer = vtex_ramp_coverage(vt, grown, lookup.width_cells);
-    return vec2f(inner, max(outer - inner, 0.0));
+struct VtexCovered {
+    // The entry's last item and what follows it.
+    item: vec4u,
+    next: u32,
+    // x: the shape, y: the ring; their sum is at most 1.
+    coverage: vec2f,
 }
 
-fn vtex_coverage_outline_paint(vt: u32) -> u32 {
+fn vtex_coverage(vt: VtexTexture, first: u32, lookup: VtexLookup) -> VtexCovered {
+    let edge = vtex_edge(vt, first, lookup);
+    let grown = edge.distance + vtex_word_float(vt, VTEX_HEADER_OUTLINE_WIDTH);
+    let inner = vtex_ramp_coverage(vt, edge.distance, lookup.width_squared);
+    let outer = vtex_ramp_coverage(vt, grown, lookup.width_squared);
+    return VtexCovered(edge.item, edge.next, vec2f(inner, max(outer - inner, 0.0)));
+}
+
+fn vtex_coverage_outline_paint(vt: VtexTexture) -> u32 {
     return vtex_word(vt, VTEX_HEADER_OUTLINE_PAINT);
 }

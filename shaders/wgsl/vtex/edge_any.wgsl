@@ -1,17 +1,24 @@
 //!use core/layout
+//!use vtex/footprint
 //!use vtex/msdf
 //!use vtex/curve
-// The edge inside an entry's cell: an MSDF tile or a curve record.
-// Distances are in texels, inside positive; only the sign is right when `sharp`.
+//!use vtex/run
+// The edge of an entry: an MSDF tile or curves.
 
-fn vtex_edge_in(entry: vec2u) -> bool {
-    let kind = entry.x >> VTEX_ENTRY_KIND_SHIFT;
-    return kind == VTEX_ENTRY_MSDF || kind == VTEX_ENTRY_CURVES;
+struct VtexEdge {
+    // The entry's last item and what follows it.
+    item: vec4u,
+    next: u32,
+    // In texels, inside positive; where the entry fills its cell, far inside.
+    distance: f32,
 }
 
-fn vtex_edge_distance(vt: u32, entry: vec2u, q: vec2f, sharp: bool) -> f32 {
-    if (entry.x >> VTEX_ENTRY_KIND_SHIFT) == VTEX_ENTRY_CURVES {
-        return vtex_curve_texels(vt, entry.y, q, sharp);
+fn vtex_edge(vt: VtexTexture, first: u32, lookup: VtexLookup) -> VtexEdge {
+    let run = vtex_run(vt, first, vtex_curve_point(vt, lookup.q));
+    let kind = run.item.w & VTEX_ITEM_KIND_MASK;
+    var distance = select(1e9, vtex_run_texels(vt, run), kind == VTEX_ITEM_CURVES);
+    if kind == VTEX_ITEM_MSDF {
+        distance = vtex_msdf_distance(vt, run.item.x, lookup.q);
     }
-    return vtex_msdf_distance(vt, entry.y, q);
+    return VtexEdge(run.item, run.next, distance);
 }

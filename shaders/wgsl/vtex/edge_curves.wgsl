@@ -1,12 +1,19 @@
 //!use core/layout
+//!use vtex/footprint
 //!use vtex/curve
-// The edge inside an entry's cell where it can be a curve record alone.
-// Distances are in texels, inside positive; only the sign is right when `sharp`.
+//!use vtex/run
+// The edge of an entry where it can be curves alone.
 
-fn vtex_edge_in(entry: vec2u) -> bool {
-    return (entry.x >> VTEX_ENTRY_KIND_SHIFT) == VTEX_ENTRY_CURVES;
+struct VtexEdge {
+    // The entry's last item and what follows it.
+    item: vec4u,
+    next: u32,
+    // In texels, inside positive; where the entry fills its cell, far inside.
+    distance: f32,
 }
 
-fn vtex_edge_distance(vt: u32, entry: vec2u, q: vec2f, sharp: bool) -> f32 {
-    return vtex_curve_texels(vt, entry.y, q, sharp);
+fn vtex_edge(vt: VtexTexture, first: u32, lookup: VtexLookup) -> VtexEdge {
+    let run = vtex_run(vt, first, vtex_curve_point(vt, lookup.q));
+    let curves = (run.item.w & VTEX_ITEM_KIND_MASK) == VTEX_ITEM_CURVES;
+    return VtexEdge(run.item, run.next, select(1e9, vtex_run_texels(vt, run), curves));
 }

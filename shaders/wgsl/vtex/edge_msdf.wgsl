@@ -1,12 +1,22 @@
 //!use core/layout
+//!use vtex/words
+//!use vtex/footprint
 //!use vtex/msdf
-// The edge inside an entry's cell where it can be an MSDF tile alone.
-// Distances are in texels, inside positive; only the sign is right when `sharp`.
+// The edge of an entry where it can be an MSDF tile alone.
 
-fn vtex_edge_in(entry: vec2u) -> bool {
-    return (entry.x >> VTEX_ENTRY_KIND_SHIFT) == VTEX_ENTRY_MSDF;
+struct VtexEdge {
+    // The entry's last item and what follows it.
+    item: vec4u,
+    next: u32,
+    // In texels, inside positive; where the entry fills its cell, far inside.
+    distance: f32,
 }
 
-fn vtex_edge_distance(vt: u32, entry: vec2u, q: vec2f, sharp: bool) -> f32 {
-    return vtex_msdf_distance(vt, entry.y, q);
+fn vtex_edge(vt: VtexTexture, first: u32, lookup: VtexLookup) -> VtexEdge {
+    let item = vtex_word4(vt, first);
+    var distance = 1e9;
+    if (item.w & VTEX_ITEM_KIND_MASK) == VTEX_ITEM_MSDF {
+        distance = vtex_msdf_distance(vt, item.x, lookup.q);
+    }
+    return VtexEdge(item, first + VTEX_ITEM_WORDS, distance);
 }

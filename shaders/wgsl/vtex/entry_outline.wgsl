@@ -4,7 +4,9 @@
 // One entry of a list and its outline at a lookup.
 
 struct VtexEntry {
+    // The last word of its last item, and what follows the item.
     head: u32,
+    next: u32,
     // Of the shape and of the ring.
     coverage: vec2f,
     // Their colours, 0 where they do not cover.
@@ -12,17 +14,19 @@ struct VtexEntry {
     ring: VtexValue,
 }
 
-fn vtex_entry(vt: u32, words: vec2u, lookup: VtexLookup) -> VtexEntry {
-    let c = vtex_coverage_outline(vt, words, lookup);
+fn vtex_entry(vt: VtexTexture, first: u32, lookup: VtexLookup) -> VtexEntry {
+    let covered = vtex_coverage(vt, first, lookup);
+    let head = covered.item.w;
+    let c = covered.coverage;
     var value = VtexValue(0.0);
     if c.x > 0.0 {
-        value = vtex_source(vt, words.x, lookup);
+        value = vtex_source(vt, head, lookup);
     }
     var ring = VtexValue(0.0);
     if c.y > 0.0 {
         ring = vtex_paint_solid(vt, vtex_coverage_outline_paint(vt));
     }
-    return VtexEntry(words.x, c, value, ring);
+    return VtexEntry(head, covered.next, c, value, ring);
 }
 
 fn vtex_entry_coverage(entry: VtexEntry) -> f32 {

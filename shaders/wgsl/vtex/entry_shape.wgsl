@@ -4,19 +4,22 @@
 // One entry of a list at a lookup.
 
 struct VtexEntry {
+    // The last word of its last item, and what follows the item.
     head: u32,
+    next: u32,
     coverage: f32,
     // Its colour, 0 where it does not cover.
     value: VtexValue,
 }
 
-fn vtex_entry(vt: u32, words: vec2u, lookup: VtexLookup) -> VtexEntry {
-    let c = vtex_coverage(vt, words, lookup);
+fn vtex_entry(vt: VtexTexture, first: u32, lookup: VtexLookup) -> VtexEntry {
+    let covered = vtex_coverage(vt, first, lookup);
+    let head = covered.item.w;
     var value = VtexValue(0.0);
-    if c > 0.0 {
-        value = vtex_source(vt, words.x, lookup);
+    if covered.coverage > 0.0 {
+        value = vtex_source(vt, head, lookup);
     }
-    return VtexEntry(words.x, c, value);
+    return VtexEntry(head, covered.next, covered.coverage, value);
 }
 
 fn vtex_entry_coverage(entry: VtexEntry) -> f32 {

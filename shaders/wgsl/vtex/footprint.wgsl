@@ -1,16 +1,18 @@
+//!use vtex/texture
 // The filter region of a lookup.
 
 struct VtexLookup {
     // After texture matrix and address mode.
     uv: vec2f,
-    // Cells a unit of uv.
-    scale: vec2f,
-    // Full width of the filter region; 0 is a point.
-    width_cells: f32,
+    // Squared full width of the filter region in cells; 0 is a point.
+    width_squared: f32,
     // Position inside the cell, in [0, 1].
     q: vec2f,
 }
 
-fn vtex_footprint_width_cells(scale: vec2f, axes: vec4f) -> f32 {
-    return max(length(scale * axes.xy), length(scale * axes.zw));
+// Squared, because a root costs as much as a cell's walk and the mips' level does without.
+fn vtex_footprint_width_squared(vt: VtexTexture, axes: vec4f) -> f32 {
+    let first = vt.cell_from_uv.xy * axes.xy;
+    let second = vt.cell_from_uv.xy * axes.zw;
+    return max(dot(first, first), dot(second, second));
 }

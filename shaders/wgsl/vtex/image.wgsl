@@ -10,65 +10,67 @@ fn vtex_image_neighbour(index: f32, count: f32, wraps: bool) -> f32 {
     return select(clamp(index, 0.0, count - 1.0), wrapped, wraps);
 }
 
-// `t` in [0, 1] over the image.
-fn vtex_image_bilinear(
-    vt: u32,
-    record: u32,
-    level: u32,
-    t: vec2f,
-    wraps: vec2<bool>,
-) -> VtexValue {
-    let full = vtex_word2(vt, record + VTEX_IMAGE_SIZE);
-    let size = max(full >> vec2u(level), vec2u(1u));
-    let count = vec2f(size);
-    let x = t * count - 0.5;
-    let corner = floor(x);
-    let f = x - corner;
-    let left = u32(vtex_image_neighbour(corner.x, count.x, wraps.x));
-    let right = u32(vtex_image_neighbour(corner.x + 1.0, count.x, wraps.x));
-    let first = vtex_word(vt, record + VTEX_IMAGE_LEVELS + level);
-    let above = first
-        + u32(vtex_image_neighbour(corner.y, count.y, wraps.y)) * size.x * VTEX_IMAGE_TEXEL_WORDS;
-    let below = first
-        + u32(vtex_image_neighbour(corner.y + 1.0, count.y, wraps.y)) * size.x
-            * VTEX_IMAGE_TEXEL_WORDS;
-    let top = (1.0 - f.x) * vtex_texel(vt, above + left * VTEX_IMAGE_TEXEL_WORDS)
-        + f.x * vtex_texel(vt, above + right * VTEX_IMAGE_TEXEL_WORDS);
-    let bottom = (1.0 - f.x) * vtex_texel(vt, below + left * VTEX_IMAGE_TEXEL_WORDS)
-        + f.x * vtex_texel(vt, below + right * VTEX_IMAGE_TEXEL_WORDS);
-    return (1.0 - f.y) * top + f.y * bottom;
+// A weight between two sides, of which the lesser is left out where it cannot be seen: it would
+// cost as much as the other.
+fn vtex_image_weight(weight: f32) -> f32 {
+    let least = 1.0 / f32(VTEX_IMAGE_WEIGHT_STEPS);
+    let kept = select(weight, 0.0, weight < least);
+    return select(kept, 1.0, weight > 1.0 - least);
 }
 
-// `lod` 0 is the finest level; less is 0, and the last level is kept beyond the end.
+// `t` in [0, 1] over the image, of `size` texels in `levels` levels. `lod` 0 is the finest; less is
+// 0, and the last level is kept beyond the end. Texels are added up one by one: that keeps the
+// code small where compilers run all of it for lookups that need none of it.
 fn vtex_image_trilinear(
-    vt: u32,
+    vt: VtexTexture,
     record: u32,
+    size: vec2u,
+    levels: u32,
     lod: f32,
     t: vec2f,
     wraps: vec2<bool>,
 ) -> VtexValue {
-    let coarsest = f32(max(vtex_word(vt, record + VTEX_IMAGE_LEVEL_COUNT), 1u) - 1u);
-    let kept = clamp(lod, 0.0, min(coarsest, 15.0));
+    let kept = clamp(lod, 0.0, min(f32(max(levels, 1u) - 1u), 15.0));
     let level = floor(kept);
-    let f = kept - level;
-    let fine = vtex_image_bilinear(vt, record, u32(level), t, wraps);
-    if f <= 0.0 {
-        return fine;
+    let coarse = vtex_image_weight(kept - level);
+    // Four of each level, or of one.
+    let first_tap = select(0u, 4u, coarse >= 1.0);
+    let last_tap = select(3u, 7u, coarse > 0.0);
+    var value = VtexValue(0.0);
+    for (var i = 0u; i < VTEX_IMAGE_TAPS; i += 1u) {
+        let tap = first_tap + i;
+        let at = u32(level) + (tap >> 2u);
+        let row = max(size >> vec2u(at), vec2u(1u));
+        let x = t * vec2f(row) - 0.5;
+        let corner = floor(x);
+        let step = vec2f(f32(tap & 1u), f32((tap >> 1u) & 1u));
+        // The weight of the near texel is 1 - f, that of the far one f.
+        let weights = abs(1.0 - step - (x - corner));
+        let weight = weights.x * weights.y * select(1.0 - coarse, coarse, tap >= 4u);
+        let column = u32(vtex_image_neighbour(corner.x + step.x, f32(row.x), wraps.x));
+        let line = u32(vtex_image_neighbour(corner.y + step.y, f32(row.y), wraps.y));
+        let first = vtex_word(vt, record + VTEX_IMAGE_LEVELS + at);
+        let texel = first + (line * row.x + column) * VTEX_IMAGE_TEXEL_WORDS;
+        value += weight * vtex_texel(vt, texel);
+        if tap == last_tap {
+            break;
+        }
     }
-    let coarse = vtex_image_bilinear(vt, record, u32(level) + 1u, t, wraps);
-    return (1.0 - f) * fine + f * coarse;
+    return value;
 }
 
 // A patch that stands for what is not vector: nothing outside its rectangle.
-fn vtex_image_entry(vt: u32, index: u32, lookup: VtexLookup) -> VtexValue {
-    let record = vtex_word(vt, VTEX_HEADER_IMAGES) + index * VTEX_IMAGE_WORDS;
+fn vtex_image_entry(vt: VtexTexture, index: u32, lookup: VtexLookup) -> VtexValue {
+    let record = vt.images + index * VTEX_IMAGE_WORDS;
     let rect = vtex_word_float4(vt, record + VTEX_IMAGE_RECT_UV);
     let size = rect.zw - rect.xy;
     let t = (lookup.uv - rect.xy) / size;
     if any(t < vec2f(0.0)) || any(t > vec2f(1.0)) {
         return VtexValue(0.0);
     }
-    let width = f32(vtex_word(vt, record + VTEX_IMAGE_SIZE));
-    let texels = lookup.width_cells * width / (size.x * lookup.scale.x);
-    return vtex_image_trilinear(vt, record, log2(max(texels, 1.0)), t, vec2<bool>(false));
+    let about = vtex_word4(vt, record + VTEX_IMAGE_SIZE);
+    let texels_per_cell = f32(about.x) / (size.x * vt.cell_from_uv.x);
+    let texels_squared = lookup.width_squared * texels_per_cell * texels_per_cell;
+    let lod = 0.5 * log2(max(texels_squared, 1.0));
+    return vtex_image_trilinear(vt, record, about.xy, about.z, lod, t, vec2<bool>(false));
 }

@@ -1,9 +1,9 @@
 // No texture matrix.
 
-fn vtex_matrix_point(vt: u32, uv: vec2f) -> vec2f {
+fn vtex_matrix_point(vt: VtexTexture, uv: vec2f) -> vec2f {
     return uv;
 }
 
-fn vtex_matrix_axes(vt: u32, axes: vec4f) -> vec4f {
+fn vtex_matrix_axes(vt: VtexTexture, axes: vec4f) -> vec4f {
     return axes;
 }

@@ -1,6 +1,6 @@
 //!use vtex/cells
 // No raster chain: cells serve every footprint.
 
-fn vtex_minify(vt: u32, lookup: VtexLookup) -> VtexValue {
+fn vtex_minify(vt: VtexTexture, lookup: VtexLookup) -> VtexValue {
     return vtex_cells(vt, lookup);
 }

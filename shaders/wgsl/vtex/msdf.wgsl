@@ -1,22 +1,21 @@
 //!use core/layout
 //!use core/math
 //!use vtex/words
-//!use vtex/settings
 // Signed distance from a tile.
 
-fn vtex_msdf_texel(vt: u32, index: u32) -> vec3f {
+fn vtex_msdf_texel(vt: VtexTexture, index: u32) -> vec3f {
     return unpack4x8unorm(vtex_word(vt, index)).rgb;
 }
 
 // In texels, inside positive. `q` is the position inside the cell.
-fn vtex_msdf_distance(vt: u32, tile: u32, q: vec2f) -> f32 {
-    let n = vtex_settings_texels_per_cell(vt);
+fn vtex_msdf_distance(vt: VtexTexture, tile: u32, q: vec2f) -> f32 {
+    let n = vt.texels_per_cell;
     // By hand: hardware filters carry 8 bits of weight, staircases when magnified.
     let x = q * f32(n);
     let corner = clamp(floor(x), vec2f(0.0), vec2f(f32(n - 1u)));
     let f = x - corner;
     let pitch = n + 1u;
-    let first = vtex_word(vt, VTEX_HEADER_TILES) + tile * pitch * pitch
+    let first = vt.tiles + tile * pitch * pitch
         + u32(corner.y) * pitch + u32(corner.x);
     let top = mix(vtex_msdf_texel(vt, first), vtex_msdf_texel(vt, first + 1u), f.x);
     let bottom = mix(

@@ -3,7 +3,7 @@
 //!use vtex/value
 // Solid paints, of which a mask wants alpha alone.
 
-fn vtex_paint_solid(vt: u32, index: u32) -> VtexValue {
-    let first = vtex_word(vt, VTEX_HEADER_PAINTS) + index * VTEX_PAINT_WORDS;
+fn vtex_paint_solid(vt: VtexTexture, index: u32) -> VtexValue {
+    let first = vt.paints + index * VTEX_PAINT_WORDS;
     return vtex_word_float(vt, first + VTEX_PAINT_LINEAR + 3u);
 }

@@ -4,7 +4,7 @@
 // Solid paints.
 
 // Linear light, premultiplied.
-fn vtex_paint_solid(vt: u32, index: u32) -> VtexValue {
-    let first = vtex_word(vt, VTEX_HEADER_PAINTS) + index * VTEX_PAINT_WORDS;
+fn vtex_paint_solid(vt: VtexTexture, index: u32) -> VtexValue {
+    let first = vt.paints + index * VTEX_PAINT_WORDS;
     return vtex_word_float4(vt, first + VTEX_PAINT_LINEAR);
 }

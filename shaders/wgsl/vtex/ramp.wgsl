@@ -1,12 +1,11 @@
 //!use core/layout
 //!use vtex/words
-//!use vtex/settings
 // Coverage from a signed distance in texels, inside positive.
 
-fn vtex_ramp_coverage(vt: u32, distance: f32, width_cells: f32) -> f32 {
+fn vtex_ramp_coverage(vt: VtexTexture, distance: f32, width_squared: f32) -> f32 {
     switch vtex_word(vt, VTEX_HEADER_FILTER) {
         case VTEX_FILTER_FOOTPRINT: {
-            let width = width_cells * f32(vtex_settings_texels_per_cell(vt));
+            let width = sqrt(width_squared) * f32(vt.texels_per_cell);
             return clamp(distance / max(width, 1e-6) + 0.5, 0.0, 1.0);
         }
         case VTEX_FILTER_PAPER: {

@@ -1,5 +1,4 @@
-//!use core/layout
-//!use vtex/words
+//!use vtex/texture
 //!use vtex/matrix
 //!use vtex/address
 //!use vtex/footprint
@@ -7,15 +6,15 @@
 //!use vtex/minify
 // A lookup, docs/format.md section 3.
 
-// `vt`: first word of the texture. `footprint`: axis0.uv, axis1.uv, full extents of the filter
+// `first`: first word of the texture. `footprint`: axis0.uv, axis1.uv, full extents of the filter
 // region. Linear light, premultiplied; a mask has its alpha in all four channels.
-fn vtex_sample_at(vt: u32, uv: vec2f, footprint: vec4f) -> vec4f {
+fn vtex_sample_at(first: u32, uv: vec2f, footprint: vec4f) -> vec4f {
+    let vt = vtex_texture(first);
     let moved = vtex_matrix_point(vt, uv);
     if vtex_address_outside(vt, moved) {
         return vec4f(0.0);
     }
-    let scale = vtex_word_float2(vt, VTEX_HEADER_CELL_FROM_UV_SCALE);
-    let width_cells = vtex_footprint_width_cells(scale, vtex_matrix_axes(vt, footprint));
-    let lookup = VtexLookup(vtex_address(vt, moved), scale, width_cells, vec2f(0.0));
+    let width_squared = vtex_footprint_width_squared(vt, vtex_matrix_axes(vt, footprint));
+    let lookup = VtexLookup(vtex_address(vt, moved), width_squared, vec2f(0.0));
     return vtex_value_result(vt, vtex_minify(vt, lookup));
 }

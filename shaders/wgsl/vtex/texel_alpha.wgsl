@@ -2,6 +2,6 @@
 //!use vtex/value
 // Image texels, of which a mask wants alpha alone.
 
-fn vtex_texel(vt: u32, index: u32) -> VtexValue {
+fn vtex_texel(vt: VtexTexture, index: u32) -> VtexValue {
     return unpack2x16float(vtex_word(vt, index + 1u)).y;
 }

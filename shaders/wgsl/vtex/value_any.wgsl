@@ -8,6 +8,6 @@ fn vtex_value_alpha(value: VtexValue) -> f32 {
     return value.a;
 }
 
-fn vtex_value_result(vt: u32, value: VtexValue) -> vec4f {
+fn vtex_value_result(vt: VtexTexture, value: VtexValue) -> vec4f {
     return select(value, vec4f(value.a), vtex_settings_has(vt, VTEX_FEATURE_MASK));
 }

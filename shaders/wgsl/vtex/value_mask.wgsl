@@ -6,6 +6,6 @@ fn vtex_value_alpha(value: VtexValue) -> f32 {
     return value;
 }
 
-fn vtex_value_result(vt: u32, value: VtexValue) -> vec4f {
+fn vtex_value_result(vt: VtexTexture, value: VtexValue) -> vec4f {
     return vec4f(value);
 }

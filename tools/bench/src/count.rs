@@ -5,7 +5,7 @@ use vtex_format::{
     CellWord, CurveHeader, Entry, EntryKind, Features, Image, MAX_ENTRIES_PER_CELL, VtexFile,
 };
 use vtex_shaders::FilterMode;
-use vtex_shaders::cpu::curve::inside;
+use vtex_shaders::record::inside;
 
 /// Bytes of a cell's word.
 const CELL_BYTES: u64 = 4;

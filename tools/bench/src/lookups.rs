@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 use vtex_shaders::cpu::Sampler;
 use vtex_shaders::layout::BatchQuery;
-use vtex_shaders::{BindingSlot, FilterMode, fragment};
+use vtex_shaders::{BindingSlot, FilterMode, PackOptions, fragment, spec_key_with};
 
 use crate::clock::{Timing, Trial, interleave};
 use crate::count::{Count, count};
@@ -121,8 +121,12 @@ pub(crate) fn count_table(subjects: &[Subject], effort: Effort) -> Table {
 fn vtex_kernel(device: &Device, subject: &Subject, filter: FilterMode) -> Kernel {
     let words = subject.words(filter);
     let words = device.buffer(bytemuck::cast_slice(&words), wgpu::BufferUsages::STORAGE);
+    let options = PackOptions {
+        filter,
+        ..PackOptions::default()
+    };
     let evaluator = fragment(
-        &subject.file.spec,
+        &spec_key_with(&subject.file, &options),
         BindingSlot {
             group: 0,
             binding: 0,

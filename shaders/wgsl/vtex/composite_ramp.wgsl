@@ -1,5 +1,5 @@
 //!use core/layout
-//!use core/color
+//!use core/decode
 //!use vtex/words
 //!use vtex/footprint
 //!use vtex/entry
@@ -7,18 +7,50 @@
 // A cell's list with translucent paints. One loop serves every filter mode, so that coverage and
 // colour of an entry are in the compiled code once.
 
-fn vtex_composite_last(vt: u32, first: u32) -> u32 {
-    var word = first;
-    for (var i = 1u; i < VTEX_KEY_MAX_ENTRIES; i += 1u) {
-        if (vtex_word(vt, word) & VTEX_ENTRY_LAST_BIT) != 0u {
+// First item of the last entry from the entry at `first` on.
+fn vtex_composite_last(vt: VtexTexture, first: u32) -> u32 {
+    var last = first;
+    var item = first;
+    for (var i = 0u; i < VTEX_ITEM_LIMIT; i += 1u) {
+        let tail = vtex_word(vt, item + 3u);
+        if (tail & VTEX_ITEM_LAST_BIT) != 0u {
             break;
         }
-        word += VTEX_ENTRY_WORDS;
+        item += VTEX_ITEM_WORDS;
+        if (tail & VTEX_ITEM_END_BIT) != 0u {
+            last = item;
+        }
     }
-    return word;
+    return last;
 }
 
-fn vtex_composite(vt: u32, first: u32, lookup: VtexLookup) -> VtexValue {
+// First item of the entry before the one at `item`; no list begins behind `first`.
+fn vtex_composite_before(vt: VtexTexture, first: u32, item: u32) -> u32 {
+    var before = item - VTEX_ITEM_WORDS;
+    for (var i = 0u; i < VTEX_ITEM_LIMIT; i += 1u) {
+        if before <= first || (vtex_word(vt, before - 1u) & VTEX_ITEM_END_BIT) != 0u {
+            break;
+        }
+        before -= VTEX_ITEM_WORDS;
+    }
+    return before;
+}
+
+// Last word of the entry at `first`.
+fn vtex_composite_head(vt: VtexTexture, first: u32) -> u32 {
+    var tail = 0u;
+    var item = first;
+    for (var i = 0u; i < VTEX_ITEM_LIMIT; i += 1u) {
+        tail = vtex_word(vt, item + 3u);
+        if (tail & VTEX_ITEM_END_BIT) != 0u {
+            break;
+        }
+        item += VTEX_ITEM_WORDS;
+    }
+    return tail;
+}
+
+fn vtex_composite(vt: VtexTexture, first: u32, lookup: VtexLookup) -> VtexValue {
     let ramp = vtex_word(vt, VTEX_HEADER_FILTER) != VTEX_FILTER_POINT;
     // Opaque entries in front, linear light: what lies behind them enters in proportion to what
     // they leave uncovered, so it can be added when it is known.
@@ -30,17 +62,16 @@ fn vtex_composite(vt: u32, first: u32, lookup: VtexLookup) -> VtexValue {
     var color = vec4f(0.0);
     var hit_count = 0u;
     var backwards = false;
-    var word = first;
+    var item = first;
     var stop = first;
     for (var i = 0u; i < 2u * VTEX_KEY_MAX_ENTRIES; i += 1u) {
-        let opaque = vtex_over_opaque(vt, vtex_word(vt, word));
+        let opaque = vtex_over_opaque(vt, vtex_composite_head(vt, item));
         if ramp && !backwards && !opaque {
             backwards = true;
-            stop = word;
-            word = vtex_composite_last(vt, word);
+            stop = item;
+            item = vtex_composite_last(vt, item);
         }
-        let words = vtex_word2(vt, word);
-        let entry = vtex_entry(vt, words, lookup);
+        let entry = vtex_entry(vt, item, lookup);
         if vtex_entry_coverage(entry) > 0.0 {
             let shown = vtex_entry_shown(entry);
             if backwards {
@@ -57,15 +88,15 @@ fn vtex_composite(vt: u32, first: u32, lookup: VtexLookup) -> VtexValue {
             }
         }
         if backwards {
-            if word == stop {
+            if item == stop {
                 break;
             }
-            word -= VTEX_ENTRY_WORDS;
+            item = vtex_composite_before(vt, stop, item);
         } else {
-            if through <= 0.0 || (words.x & VTEX_ENTRY_LAST_BIT) != 0u {
+            if through <= 0.0 || (entry.head & VTEX_ITEM_LAST_BIT) != 0u {
                 break;
             }
-            word += VTEX_ENTRY_WORDS;
+            item = entry.next;
         }
     }
     if backwards {

@@ -1,14 +1,15 @@
-//! Twin of `vtex/curve.wgsl`: winding and distance from the exact outline inside a cell.
+//! Winding and distance from a curve record as a file stores it (docs/format.md 2.13): what
+//! evaluators, which read items made from records, are held against.
 //!
-//! A record is described at [`vtex_format::CurveHeader`]. `record` below starts at its first
-//! word and may be longer; words that are missing count as segments that are not there. `p` is in
-//! units of the record's box.
+//! `record` below starts at the first word of what [`vtex_format::CurveHeader`] describes and may
+//! be longer; words that are missing count as segments that are not there. `p` is in units of the
+//! record's box.
 
-use vtex_format::{CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS};
+use vtex_format::{
+    CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, MAX_CURVE_SEGMENTS, MAX_CURVE_STEPS,
+};
 
-use super::Sampler;
-use super::math::to_f32;
-use crate::layout::curve::{COUNT_MASK, NEWTON_STEPS, STEP_MASK};
+use crate::layout::curve::NEWTON_STEPS;
 
 type Vec2 = [f32; 2];
 
@@ -26,9 +27,9 @@ struct Parts<'a> {
 fn parts(record: &[u32]) -> Parts<'_> {
     let first = record.first().copied().unwrap_or(0);
     let second = record.get(1).copied().unwrap_or(0);
-    let count = |word: u32| (word & COUNT_MASK) as usize;
+    let count = |word: u32| (word & MAX_CURVE_SEGMENTS) as usize;
     let rest = record.get(CURVE_HEADER_WORDS as usize..).unwrap_or(&[]);
-    let (steps, rest) = split(rest, ((first >> 22) & STEP_MASK) as usize);
+    let (steps, rest) = split(rest, ((first >> 22) & MAX_CURVE_STEPS) as usize);
     let (lines, rest) = split(rest, count(first) * CURVE_LINE_WORDS as usize);
     let (quads, _) = split(rest, count(first >> 11) * CURVE_QUAD_WORDS as usize);
     Parts {
@@ -166,25 +167,6 @@ pub fn distance(record: &[u32], p: Vec2, reach: f32) -> f32 {
     } else {
         -length
     }
-}
-
-/// In texels, inside positive, far beyond every ramp where the record does not reach. `at` is the
-/// record's place in its section. Only the sign is right when `sharp`.
-pub(super) fn texels(sampler: &Sampler<'_>, at: u32, q: Vec2, sharp: bool) -> f32 {
-    let settings = &sampler.settings;
-    let record = sampler.words_from(settings.curves.wrapping_add(at));
-    let [units_per_cell, reach] = settings.curve_lattice;
-    let p = q.map(|q| q * units_per_cell + reach);
-    let far = |inside: bool| if inside { 1e9 } else { -1e9 };
-    if sharp || reach <= 0.0 {
-        return far(inside(record, p));
-    }
-    let units = distance(record, p, reach);
-    // The slack is for square roots that are not correctly rounded.
-    if units.abs() >= reach * 0.999_999 {
-        return far(units > 0.0);
-    }
-    units / units_per_cell * to_f32(settings.texels_per_cell)
 }
 
 fn box_distance_squared(a: Vec2, b: Vec2) -> f32 {

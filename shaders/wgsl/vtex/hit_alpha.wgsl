@@ -1,0 +1,38 @@
+//!use core/layout
+//!use vtex/footprint
+//!use vtex/paint
+//!use vtex/source
+// What hits of a walk show of a mask where some are translucent.
+
+struct VtexHit {
+    alpha: f32,
+    through: f32,
+    paint: u32,
+}
+
+fn vtex_hit_solid(shows: bool, paint: u32) -> VtexHit {
+    return VtexHit(0.0, 1.0, select(VTEX_ITEM_INDEX_MASK, paint, shows));
+}
+
+// Takes in an entry that `covers` the lookup or not; whether what lies behind it can show.
+fn vtex_hit(
+    vt: VtexTexture,
+    hit: ptr<function, VtexHit>,
+    covers: bool,
+    head: u32,
+    lookup: VtexLookup,
+) -> bool {
+    if covers {
+        let shown = vtex_source(vt, head, lookup);
+        (*hit).alpha += (*hit).through * shown;
+        (*hit).through *= 1.0 - shown;
+    }
+    return (*hit).through > 0.0;
+}
+
+fn vtex_hit_value(vt: VtexTexture, hit: VtexHit) -> VtexValue {
+    if hit.paint != VTEX_ITEM_INDEX_MASK {
+        return vtex_paint_solid(vt, hit.paint);
+    }
+    return hit.alpha;
+}

@@ -1,0 +1,48 @@
+//!use core/layout
+//!use core/decode
+//!use vtex/footprint
+//!use vtex/paint
+//!use vtex/source
+//!use vtex/encoded
+// What hits of a walk show where some are translucent: front to back, sRGB-encoded.
+
+struct VtexHit {
+    // The only one so far, in linear light: it needs no transfer function.
+    only: vec4f,
+    count: u32,
+    color: vec4f,
+    paint: u32,
+}
+
+fn vtex_hit_solid(shows: bool, paint: u32) -> VtexHit {
+    return VtexHit(vec4f(0.0), 0u, vec4f(0.0), select(VTEX_ITEM_INDEX_MASK, paint, shows));
+}
+
+// Takes in an entry that `covers` the lookup or not; whether what lies behind it can show.
+fn vtex_hit(
+    vt: VtexTexture,
+    hit: ptr<function, VtexHit>,
+    covers: bool,
+    head: u32,
+    lookup: VtexLookup,
+) -> bool {
+    if covers {
+        let value = vtex_source(vt, head, lookup);
+        if value.a > 0.0 {
+            (*hit).only = value;
+            (*hit).count += 1u;
+            (*hit).color += (1.0 - (*hit).color.a) * vtex_encoded(vt, head, value);
+        }
+    }
+    return (*hit).color.a < 1.0;
+}
+
+fn vtex_hit_value(vt: VtexTexture, hit: VtexHit) -> vec4f {
+    if hit.count > 1u {
+        return vtex_color_decode_premultiplied(hit.color);
+    }
+    if hit.paint != VTEX_ITEM_INDEX_MASK {
+        return vtex_paint_solid(vt, hit.paint);
+    }
+    return hit.only;
+}
