@@ -5,7 +5,7 @@ use super::{Lookup, Sampler, Value};
 use crate::layout::{cell, item};
 
 /// The fine cell's word and the position inside the file's cell.
-fn find(sampler: &Sampler<'_>, lookup: &Lookup) -> (u32, [f32; 2]) {
+pub(super) fn find(sampler: &Sampler<'_>, lookup: &Lookup) -> (u32, [f32; 2]) {
     let s = &sampler.settings;
     let mut part = [0.0; 2];
     let mut q = [0.0; 2];

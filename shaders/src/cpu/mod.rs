@@ -8,6 +8,7 @@ mod address;
 mod cell;
 pub mod color;
 mod composite;
+mod cost;
 mod coverage;
 mod edge;
 mod entry;
@@ -27,6 +28,7 @@ mod source;
 mod value;
 mod words;
 
+pub use cost::LookupCost;
 use footprint::Lookup;
 pub(crate) use math::to_f32;
 use settings::Settings;

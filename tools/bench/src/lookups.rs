@@ -4,12 +4,11 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
-use vtex_shaders::cpu::Sampler;
+use vtex_shaders::cpu::{LookupCost, Sampler};
 use vtex_shaders::layout::BatchQuery;
 use vtex_shaders::{BindingSlot, FilterMode, PackOptions, fragment, spec_key_with};
 
 use crate::clock::{Timing, Trial, interleave};
-use crate::count::{Count, count};
 use crate::device::{Device, Kernel};
 use crate::queries::QuerySet;
 use crate::raster::{CpuRaster, RASTER_SIZE, hardware_kernel};
@@ -80,28 +79,29 @@ pub(crate) fn count_table(subjects: &[Subject], effort: Effort) -> Table {
         "packed KiB",
         "raster KiB",
         "entries, point",
-        "entries, footprint",
-        "of these MSDF",
+        "segments, point",
+        "tiles, point",
         "bytes, point",
+        "entries, footprint",
+        "segments, footprint",
         "bytes, footprint",
     ];
     let mut table = Table::new("What a lookup reads", &columns);
     table.note(
-        "Means over the lookups, counted by walking the file's records. The raster reads 16 to 32 \
-         bytes.",
+        "Means over the lookups, counted along the twin's walk. The raster reads 16 to 32 bytes.",
     );
     for subject in subjects {
-        let [_, _, set] = subject.query_sets(effort.cpu_lookups);
+        let [.., set] = subject.query_sets(effort.cpu_lookups);
         let lookups = set.len() as f64;
         let sum = |filter| {
-            let of = |query: BatchQuery| count(&subject.file, query.uv, query.footprint[0], filter);
-            set.queries()
-                .into_iter()
-                .map(of)
-                .fold(Count::default(), Count::plus)
+            let words = subject.words(filter);
+            let sampler = Sampler::new(&words);
+            let of = |query: BatchQuery| sampler.cost(query.uv, query.footprint);
+            let costs = set.queries().into_iter().map(of);
+            costs.fold(LookupCost::default(), std::ops::Add::add)
         };
         let [point, footprint] = [sum(FilterMode::Point), sum(FilterMode::Footprint)];
-        let mean = |total: u64, digits| Cell::Number(total as f64 / lookups, digits);
+        let mean = |total: u32, digits| Cell::Number(f64::from(total) / lookups, digits);
         let kib = |bytes: usize| Cell::Number(bytes as f64 / 1024.0, 0);
         table.row(vec![
             Cell::Text(subject.name.clone()),
@@ -109,9 +109,11 @@ pub(crate) fn count_table(subjects: &[Subject], effort: Effort) -> Table {
             kib(4 * subject.words(FilterMode::Point).len()),
             kib(subject.raster.mips.iter().map(Vec::len).sum()),
             mean(point.entries, 2),
-            mean(footprint.entries, 2),
-            mean(footprint.msdf, 2),
+            mean(point.segments, 2),
+            mean(point.tiles, 2),
             mean(point.bytes, 1),
+            mean(footprint.entries, 2),
+            mean(footprint.segments, 2),
             mean(footprint.bytes, 1),
         ]);
     }
@@ -198,6 +200,7 @@ fn tables(title: &str, baseline: &str, rows: &[Row<'_>]) -> Vec<Table> {
 /// What a query set of [`Subject::query_sets`] is.
 fn meaning(name: &str) -> &'static str {
     match name {
+        "8x, all" => "8 x 8 pixels at 8x from everywhere on the canvas, in screen order",
         "8x" => "The 512 x 512 pixels of the canvas' busiest part at 8x, in screen order",
         "1x" => "The whole canvas in 512 pixels, in screen order (answered by mips)",
         _ => "Random points of the canvas with the footprint of a pixel at 8x",

@@ -1,7 +1,6 @@
 //! `vtex-bench`: how long bakes, lookups and rays take on this machine, beside their rivals.
 
 mod clock;
-mod count;
 mod device;
 mod lookups;
 mod machine;

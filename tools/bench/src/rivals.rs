@@ -169,7 +169,11 @@ fn disagreement(device: &Device, kernels: [&Kernel; 2], sets: &[QuerySet]) -> Re
 pub(crate) fn check_queries(device: &Device) -> Result<()> {
     let kernel = nothing_kernel(device);
     let screen = Screen::new([3.0, 2.0]);
-    for set in [screen.close([0.3, 0.2], 1 << 18), screen.scattered(1 << 18)] {
+    for set in [
+        screen.close([0.3, 0.2], 1 << 18),
+        screen.scattered(1 << 18),
+        screen.tour(1 << 19),
+    ] {
         let batch = device.batch(&set);
         device.time(&kernel, &batch)?;
         for (query, result) in set.queries().iter().zip(device.results(&batch)?) {

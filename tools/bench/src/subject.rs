@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, Result};
 use vtex_baker::{BakeConfig, Resources};
 use vtex_format::{Image, VtexFile};
+use vtex_shaders::cpu::Sampler;
 use vtex_shaders::{FilterMode, PackOptions, pack};
 
-use crate::count::{Count, count};
 use crate::queries::{QuerySet, Screen};
 use crate::raster::RASTER_SIZE;
 use crate::rasterise::rasterise;
@@ -57,10 +57,11 @@ impl Subject {
         })
     }
 
-    /// Columns of the lookup tables: magnified where the drawing is busiest, as a whole at 1x,
-    /// and magnified at random points.
-    pub(crate) fn query_sets(&self, lookups: usize) -> [QuerySet; 3] {
+    /// Columns of the lookup tables: magnified all over the canvas, magnified where it is busiest,
+    /// as a whole at 1x, and magnified at random points.
+    pub(crate) fn query_sets(&self, lookups: usize) -> [QuerySet; 4] {
         [
+            self.screen.tour(lookups),
             self.screen.close(self.busy_corner, lookups),
             self.screen.whole(lookups),
             self.screen.scattered(lookups),
@@ -117,9 +118,11 @@ fn svg_files(folder: &Path) -> Vec<PathBuf> {
     paths
 }
 
-/// Corner of the 8x window whose lookups visit the most entries; ties go to the first.
+/// Corner of the 8x window whose lookups walk the most entries and segments; ties go to the first.
 fn busiest(file: &VtexFile, screen: Screen) -> [f32; 2] {
-    let entries = |corner: &[f32; 2]| {
+    let words = pack(file, &PackOptions::default());
+    let sampler = Sampler::new(&words);
+    let cost = |corner: &[f32; 2]| {
         let set = screen.close(*corner, 1);
         let [width, height] = set.extent_uv();
         let probe = |i: u16| {
@@ -129,13 +132,13 @@ fn busiest(file: &VtexFile, screen: Screen) -> [f32; 2] {
                 corner[1] + at(i / PROBES) * height,
             ]
         };
-        let visited = |uv| {
-            let Count { entries, .. } = count(file, uv, 0.0, FilterMode::Point);
-            entries
+        let walked = |uv| {
+            let cost = sampler.cost(uv, [0.0; 4]);
+            cost.entries + cost.segments
         };
-        (0..PROBES * PROBES).map(probe).map(visited).sum::<u64>()
+        (0..PROBES * PROBES).map(probe).map(walked).sum::<u32>()
     };
     let corners: Vec<[f32; 2]> = screen.close_corners().collect();
-    let best = corners.iter().rev().max_by_key(|corner| entries(corner));
+    let best = corners.iter().rev().max_by_key(|corner| cost(corner));
     best.copied().unwrap_or_default()
 }

@@ -7,7 +7,7 @@ struct BenchQueries {
     pixel: vec2f,
     size_px: vec2u,
     scattered: u32,
-    padding: u32,
+    stride: u32,
 }
 
 @group(1) @binding(0) var<uniform> bench_queries: BenchQueries;
@@ -28,7 +28,6 @@ fn bench_unit(bits: u32) -> f32 {
 
 @compute @workgroup_size(8, 8)
 fn bench_main(
-    @builtin(global_invocation_id) id: vec3u,
     @builtin(workgroup_id) tile: vec3u,
     @builtin(num_workgroups) tiles: vec3u,
     @builtin(local_invocation_index) lane: u32,
@@ -37,7 +36,9 @@ fn bench_main(
     let seed = bench_scramble(index);
     let jitter = vec2f(bench_unit(seed), bench_unit(bench_scramble(seed ^ 0x9e3779b9u)));
     let q = bench_queries;
-    let on_screen = q.origin + (vec2f(id.xy) + jitter) * q.pixel;
+    let shift = (tile.z * vec2u(3u, 5u)) % q.stride;
+    let pixel = (tile.xy * q.stride + shift) * 8u + vec2u(lane % 8u, lane / 8u);
+    let on_screen = q.origin + (vec2f(pixel) + jitter) * q.pixel;
     let uv = select(on_screen, jitter, q.scattered == 1u);
     bench_results[index] = bench_sample(uv, vec4f(q.pixel.x, 0.0, 0.0, q.pixel.y));
 }
