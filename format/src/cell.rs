@@ -13,9 +13,12 @@ const OPAQUE_BIT: u32 = 1 << 26;
 const INDEX_MASK: u32 = OPAQUE_BIT - 1;
 /// Paints, and images, that an entry can name.
 pub const MAX_INDEXED: u32 = 1 << 19;
-/// Segments, or changes of the winding, that a list may hold; an entry without any counts as one.
-/// Bounds every evaluator loop over them.
+/// Items that a list may hold: segments and changes of the winding of its curve records; an entry
+/// without any is one. Bounds every evaluator loop over them.
 pub const MAX_LIST_ITEMS: u32 = 1 << 15;
+/// Items that all lists together may hold: what one storage binding of core WebGPU takes, 128 MiB
+/// at 16 bytes.
+pub const MAX_ITEMS: u64 = 1 << 23;
 
 /// One cell of the grid.
 ///

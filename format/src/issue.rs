@@ -201,6 +201,8 @@ issue_table! {
     CELL_PAINT = 5003 Malformed "the paint of a cell does not exist";
     LIST_OFFSET = 5004 Malformed "a list starts outside the entries or between two";
     LIST_END = 5005 Malformed "a list does not end in time";
+    LIST_ITEMS = 5006 Malformed "a list holds more segments than evaluators walk";
+    ALL_ITEMS = 5007 Malformed "the lists together hold more segments than one binding takes";
     ENTRY_COUNT = 5010 Malformed "half an entry";
     ENTRY_WORD = 5011 Malformed "an entry has no meaning";
     ENTRY_PAINT = 5012 Malformed "the paint of an entry does not exist";

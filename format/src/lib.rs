@@ -87,7 +87,8 @@ mod tile;
 mod write;
 
 pub use cell::{
-    CELL_TAG_SHIFT, CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL, MAX_INDEXED, MAX_LIST_ITEMS,
+    CELL_TAG_SHIFT, CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL, MAX_INDEXED, MAX_ITEMS,
+    MAX_LIST_ITEMS,
 };
 pub use curve::{
     CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CurveHeader, CurveLattice,

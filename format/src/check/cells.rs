@@ -4,7 +4,10 @@ use std::cell::OnceCell;
 
 use crate::cell::LAST_BIT;
 use crate::issue::{self, Issues};
-use crate::{CellWord, CurveHeader, Entry, EntryKind, Image, MAX_ENTRIES_PER_CELL, Tag, VtexFile};
+use crate::{
+    CURVE_HEADER_WORDS, CellWord, CurveHeader, Entry, EntryKind, Image, MAX_ENTRIES_PER_CELL,
+    MAX_ITEMS, MAX_LIST_ITEMS, Tag, VtexFile,
+};
 
 /// What entries may name.
 pub(super) struct Tables {
@@ -110,6 +113,7 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> u32 {
         issues.add(issue::CELL_COUNT, Tag::CELL, 0, message);
     }
     let lengths = list_lengths(&file.entries);
+    let mut items = Items::of(file);
     let mut longest = 0;
     for (index, &word) in file.cells.iter().enumerate() {
         let mut note = |kind, message: std::fmt::Arguments<'_>| {
@@ -129,7 +133,13 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> u32 {
                 let length = lengths.get(offset_words as usize / 2);
                 match length.filter(|_| offset_words % 2 == 0) {
                     None => note(issue::LIST_OFFSET, format_args!("word {offset_words}")),
-                    Some(Some(length)) => longest = longest.max(*length),
+                    Some(Some(length)) => {
+                        longest = longest.max(*length);
+                        let items = items.take(offset_words as usize / 2);
+                        if items > u64::from(MAX_LIST_ITEMS) {
+                            note(issue::LIST_ITEMS, format_args!("{items} items"));
+                        }
+                    }
                     Some(None) => note(
                         issue::LIST_END,
                         format_args!("no last entry within {MAX_ENTRIES_PER_CELL}"),
@@ -138,7 +148,64 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> u32 {
             }
         }
     }
+    if items.total > MAX_ITEMS {
+        let message = format_args!("{} of at most {MAX_ITEMS} items", items.total);
+        issues.add(issue::ALL_ITEMS, Tag::CELL, 0, message);
+    }
     longest
+}
+
+/// Items of lists, by the entry a list starts with.
+struct Items {
+    to_the_end: Vec<u64>,
+    taken: Vec<bool>,
+    /// Of the lists taken so far, each once.
+    total: u64,
+}
+
+impl Items {
+    fn of(file: &VtexFile) -> Self {
+        let (pairs, _) = file.entries.as_chunks::<2>();
+        let mut behind = 0_u64;
+        let backward = pairs.iter().rev().map(|&words| {
+            let last = words[0] & LAST_BIT != 0;
+            behind = if last { 0 } else { behind };
+            behind = behind.saturating_add(entry_items(file, words));
+            behind
+        });
+        let mut to_the_end: Vec<u64> = backward.collect();
+        to_the_end.reverse();
+        Self {
+            taken: vec![false; to_the_end.len()],
+            to_the_end,
+            total: 0,
+        }
+    }
+
+    fn take(&mut self, first: usize) -> u64 {
+        let items = self.to_the_end[first];
+        if !std::mem::replace(&mut self.taken[first], true) {
+            self.total = self.total.saturating_add(items);
+        }
+        items
+    }
+}
+
+/// Items that evaluators walk for an entry; one where its record is not sound.
+fn entry_items(file: &VtexFile, words: [u32; 2]) -> u64 {
+    let entry = Entry::decode(words).filter(|entry| entry.kind == EntryKind::Curves);
+    let record = entry.and_then(|entry| file.curves.get(entry.data as usize..));
+    let header = record.and_then(|record| CurveHeader::decode(*record.first_chunk()?));
+    let (Some(record), Some(header)) = (record, header) else {
+        return 1;
+    };
+    let steps = record.iter().skip(CURVE_HEADER_WORDS as usize);
+    let steps = steps.take(header.step_count as usize);
+    let changes = steps.map(|step| u64::from((step.cast_signed() >> 16).unsigned_abs()));
+    let base = header.base_winding;
+    let beyond = base.saturating_sub(7).max(-8 - base).max(0).unsigned_abs();
+    let segments = u64::from(header.line_count) + u64::from(header.quad_count);
+    (segments + changes.sum::<u64>() + u64::from(beyond)).max(1)
 }
 
 /// For each entry how many there are from it to the next last one; `None` when that is more than

@@ -205,7 +205,14 @@ const VALUE_CASES: &[ValueCase] = &[
     (5004, |f| f.cells[2] = 2 << 30 | 1),
     (5004, |f| f.cells[2] = 2 << 30 | 10),
     (5005, |f| f.entries[8] &= !(1 << 27)),
+    (5006, |f| f.curves[2] = 1 << 31),
+    (5007, |f| {
+        f.curves[2] = 0x7fff << 16;
+        f.entries = [2 << 28 | 1 << 27 | 1, 0].repeat(300);
+        f.cells = (0..300).map(|list| 2 << 30 | 2 * list).collect();
+    }),
     (5010, |f| f.entries.truncate(7)),
+    (5011, |f| f.entries[0] |= 1 << 19),
     (5011, |f| f.entries[0] = 4 << 28),
     (5011, |f| f.entries[5] = 1),
     (5012, |f| f.entries[4] += 2),
