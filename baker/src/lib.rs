@@ -44,6 +44,7 @@ mod raster;
 mod records;
 mod resample;
 mod scales;
+mod sources;
 mod stroke;
 mod subset;
 mod svg;

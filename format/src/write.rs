@@ -9,7 +9,7 @@ use crate::issue::{self, Issues};
 use crate::layout::{self, MAX_SECTIONS, entry, header, tile_texels};
 use crate::read::level_order;
 use crate::{
-    Codec, Issue, LayerRecord, SectionInfo, Tag, VtexFile, WriteError, check, codec, tile,
+    Codec, Issue, LayerRecord, SectionInfo, Tag, VtexFile, WriteError, check, codec, source, tile,
 };
 
 /// Layers are gathered until their tiles reach this many bytes in memory: large enough to pack well, small
@@ -93,7 +93,7 @@ impl VtexFile {
             Part::whole(Tag::IMAG, words_to_little_endian(&records).into_owned()),
             Part::whole(Tag::CELL, words_to_little_endian(&self.cells)),
             Part::whole(Tag::ENTR, words_to_little_endian(&self.entries)),
-            Part::whole(Tag::CURV, words_to_little_endian(&self.curves)),
+            self.curve_part(),
         ];
         parts.extend(self.tile_parts());
         parts.extend(self.mip_parts());
@@ -103,6 +103,14 @@ impl VtexFile {
             return Err(refuse(issue::SECTION_COUNT, Tag::HEAD, message));
         }
         Ok(parts)
+    }
+
+    /// The outlines where there are some, else the records.
+    fn curve_part(&self) -> Part<'_> {
+        match &self.sources {
+            Some(sources) => Part::whole(Tag::OUTL, source::encode(sources, &self.curves)),
+            None => Part::whole(Tag::CURV, words_to_little_endian(&self.curves)),
+        }
     }
 
     /// Runs of whole layers; trailing layers without tiles join the last run.

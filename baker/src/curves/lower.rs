@@ -59,7 +59,7 @@ impl Segment {
 /// A shape's outline in units, ready to be cut.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LoweredOutline {
-    /// The segments of all contours; every contour is a closed chain.
+    /// The segments of all contours, along the contours; every contour is a closed chain.
     pub(crate) segments: Vec<Segment>,
 }
 
@@ -133,6 +133,7 @@ impl Lowering {
     }
 
     fn quad(&mut self, quad: QuadBez) {
+        let first = self.segments.len();
         // The same quadratic backwards is cut at the same points.
         let (quad, forward) = if is_canonical(quad.p0, quad.p2, quad.p1, quad.p1) {
             (quad, true)
@@ -162,9 +163,11 @@ impl Lowering {
             self.push_along(forward, from.1, control, end);
             from = (t, end);
         }
+        self.put_in_order(first, forward);
     }
 
     fn cubic(&mut self, cubic: CubicBez) {
+        let first = self.segments.len();
         let (cubic, forward) = if is_canonical(cubic.p0, cubic.p3, cubic.p1, cubic.p2) {
             (cubic, true)
         } else {
@@ -181,6 +184,7 @@ impl Lowering {
                 from = t;
             }
         }
+        self.put_in_order(first, forward);
     }
 
     /// Both coordinates of `cubic` are monotone.
@@ -194,6 +198,14 @@ impl Lowering {
                 break;
             }
             (from, step) = (to, STEP_GROWTH * (to - from));
+        }
+    }
+
+    /// Pieces of a curve that was cut backwards, from the one with index `first` on, follow its own
+    /// direction again.
+    fn put_in_order(&mut self, first: usize, forward: bool) {
+        if !forward {
+            self.segments[first..].reverse();
         }
     }
 

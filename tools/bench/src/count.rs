@@ -315,6 +315,7 @@ mod tests {
                 .flatten()
                 .collect(),
             curves: Vec::new(),
+            sources: None,
             tiles: [[255; 4], [0, 0, 0, 255], [255; 4], [0, 0, 0, 255]].concat(),
             images: Vec::new(),
             provenance: None,

@@ -1,0 +1,226 @@
+//! One segment against one cell's box, in binary64 arithmetic that every machine does alike: sums,
+//! products, quotients, square roots, `round` (halves away from zero). `docs/format.md` section
+//! 2.14 gives the same in formulas.
+
+/// A place in units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Point {
+    pub(super) x: f64,
+    pub(super) y: f64,
+}
+
+impl Point {
+    pub(super) fn new(x: f64, y: f64) -> Self {
+        Self { x, y }
+    }
+
+    pub(super) fn of([x, y]: [i32; 2]) -> Self {
+        Self::new(f64::from(x), f64::from(y))
+    }
+
+    fn minus(self, other: Self) -> Self {
+        Self::new(self.x - other.x, self.y - other.y)
+    }
+
+    fn cross(self, other: Self) -> f64 {
+        self.x * other.y - self.y * other.x
+    }
+
+    fn clamped(self, a: Self, b: Self) -> Self {
+        Self::new(
+            self.x.max(a.x.min(b.x)).min(a.x.max(b.x)),
+            self.y.max(a.y.min(b.y)).min(a.y.max(b.y)),
+        )
+    }
+}
+
+/// A monotone segment from its upper to its lower end (equal heights: left to right).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Segment {
+    pub(super) start: Point,
+    pub(super) control: Option<Point>,
+    pub(super) end: Point,
+    /// 1 where the outline runs from start to end, -1 where it runs back.
+    pub(super) direction: i32,
+}
+
+impl Segment {
+    pub(super) fn x_min(&self) -> f64 {
+        self.start.x.min(self.end.x)
+    }
+
+    fn x_max(&self) -> f64 {
+        self.start.x.max(self.end.x)
+    }
+
+    /// Blossom: the point at `s = t`, and the control point of the part between `s` and `t`.
+    fn blossom(&self, s: f64, t: f64) -> Point {
+        let axis = |a: f64, c: Option<f64>, b: f64| match c {
+            None => a + 0.5 * (s + t) * (b - a),
+            Some(c) => (1.0 - s) * (1.0 - t) * a + (s * (1.0 - t) + t * (1.0 - s)) * c + s * t * b,
+        };
+        Point::new(
+            axis(self.start.x, self.control.map(|c| c.x), self.end.x),
+            axis(self.start.y, self.control.map(|c| c.y), self.end.y),
+        )
+    }
+}
+
+/// A cell's box in units.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CellBox {
+    /// Top left corner.
+    pub(super) origin: Point,
+    /// Side.
+    pub(super) size: f64,
+    /// A quadratic that stays within this of its chord becomes a line.
+    pub(super) flatness: f64,
+}
+
+/// What a segment is to a box.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Clipped {
+    /// The part in the box, relative to its corner.
+    pub(super) inside: Option<Segment>,
+    /// Heights, relative to the box's top, between which the segment passes left of the box.
+    pub(super) left: Option<[f64; 2]>,
+}
+
+/// A point of the segment: parameter and rounded place.
+#[derive(Clone, Copy)]
+struct Cut {
+    t: f64,
+    point: Point,
+}
+
+/// Cuts `segment`, which reaches into the box's rows, to the box. Parts above, below and right of
+/// it vanish.
+pub(super) fn clip(segment: &Segment, cell: &CellBox) -> Clipped {
+    let low = cell.origin;
+    let high = Point::new(low.x + cell.size, low.y + cell.size);
+    let mut first = Cut {
+        t: 0.0,
+        point: segment.start,
+    };
+    let mut last = Cut {
+        t: 1.0,
+        point: segment.end,
+    };
+    if first.point.y < low.y {
+        first = cut_at_height(segment, low.y);
+    }
+    if last.point.y > high.y {
+        last = cut_at_height(segment, high.y);
+    }
+    if first.point.x.max(last.point.x) <= low.x {
+        return Clipped {
+            inside: None,
+            left: span(first, last, cell),
+        };
+    }
+    if first.point.x.min(last.point.x) >= high.x {
+        return Clipped::default();
+    }
+    let mut left = None;
+    // The right cut comes first where the left one comes last, so that the left one, whose height
+    // becomes a step, is what the order of the two heights is measured against.
+    if first.point.x <= last.point.x {
+        if first.point.x < low.x {
+            let cut = cut_at_x(segment, low.x, first, last);
+            left = span(first, cut, cell);
+            first = cut;
+        }
+        if last.point.x > high.x {
+            last = cut_at_x(segment, high.x, first, last);
+        }
+    } else {
+        if last.point.x < low.x {
+            let cut = cut_at_x(segment, low.x, first, last);
+            left = span(cut, last, cell);
+            last = cut;
+        }
+        if first.point.x > high.x {
+            first = cut_at_x(segment, high.x, first, last);
+        }
+    }
+    Clipped {
+        inside: between(segment, first, last, cell),
+        left,
+    }
+}
+
+fn span(first: Cut, last: Cut, cell: &CellBox) -> Option<[f64; 2]> {
+    let heights = [first, last].map(|cut| cut.point.y - cell.origin.y);
+    (heights[0] < heights[1]).then_some(heights)
+}
+
+fn cut_at_height(segment: &Segment, y: f64) -> Cut {
+    let t = parameter(
+        segment.start.y,
+        segment.control.map(|c| c.y),
+        segment.end.y,
+        y,
+    );
+    let x = segment.blossom(t, t).x.round();
+    let x = x.max(segment.x_min()).min(segment.x_max());
+    Cut {
+        t,
+        point: Point::new(x, y),
+    }
+}
+
+/// Its height is rounded and lies between those of `first` and `last`.
+fn cut_at_x(segment: &Segment, x: f64, first: Cut, last: Cut) -> Cut {
+    let t = parameter(
+        segment.start.x,
+        segment.control.map(|c| c.x),
+        segment.end.x,
+        x,
+    );
+    let t = t.max(first.t).min(last.t);
+    let y = segment.blossom(t, t).y.round();
+    let y = y.max(first.point.y).min(last.point.y);
+    Cut {
+        t,
+        point: Point::new(x, y),
+    }
+}
+
+/// Where a monotone coordinate takes the value `v`, which lies between its ends.
+fn parameter(p0: f64, control: Option<f64>, p2: f64, v: f64) -> f64 {
+    let t = match control {
+        None => (v - p0) / (p2 - p0),
+        Some(p1) => {
+            // a t^2 + 2 b t = v - p0. The slope a t + b at the root is the square root of the
+            // discriminant with the sign of p2 - p0, which b shares: nothing cancels.
+            let (a, b) = (p0 - 2.0 * p1 + p2, p1 - p0);
+            let slope = (b * b + a * (v - p0)).max(0.0).sqrt();
+            (v - p0) / (b + slope.copysign(p2 - p0))
+        }
+    };
+    if t.is_nan() { 0.0 } else { t.clamp(0.0, 1.0) }
+}
+
+/// The part between two cuts, relative to the box; `None` for a point.
+fn between(segment: &Segment, first: Cut, last: Cut, cell: &CellBox) -> Option<Segment> {
+    let local = |p: Point| p.minus(cell.origin);
+    let (start, end) = (local(first.point), local(last.point));
+    if start == end {
+        return None;
+    }
+    let control = segment.control.and_then(|_| {
+        let control = local(segment.blossom(first.t, last.t));
+        let control = Point::new(control.x.round(), control.y.round()).clamped(start, end);
+        // The curve leaves its chord by half of what its control point does.
+        let chord = end.minus(start);
+        let length = (chord.x * chord.x + chord.y * chord.y).sqrt();
+        let height = chord.cross(control.minus(start)).abs() / length;
+        (0.5 * height > cell.flatness).then_some(control)
+    });
+    Some(Segment {
+        start,
+        control,
+        end,
+        direction: segment.direction,
+    })
+}
