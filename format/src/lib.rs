@@ -75,6 +75,7 @@ mod issue;
 mod layer;
 mod layout;
 mod limits;
+mod lists;
 mod meta;
 mod paint;
 mod prov;

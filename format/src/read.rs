@@ -9,7 +9,7 @@ use crate::issue::{self, Issues};
 use crate::layout::{TILE_PLANES, entry, tile_texels};
 use crate::{CurveSources, Issue, SourceError, SpecKey, Tag, VtexFile};
 use crate::{Image, LayerRecord, Limits, Meta, Provenance, ReadError, SectionInfo, ShaderBlob};
-use crate::{check, codec, frame, source, tile};
+use crate::{check, codec, frame, lists, source, tile};
 
 impl VtexFile {
     /// Reads and checks a whole file: what this returns is safe to evaluate.
@@ -55,6 +55,9 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
         .and_then(|layers| loader.tiles(&meta, layers));
     let images = images.as_deref().and_then(|records| loader.images(records));
     let (curves, sources) = curves?;
+    let (mut cells, mut entries) = (cells?, entries?);
+    lists::entries_from_stored(&mut entries, &curves);
+    lists::cells_from_stored(&mut cells, &entries);
     let file = VtexFile {
         meta,
         spec: spec?,
@@ -62,8 +65,8 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
         paints: paints?,
         shapes: shapes?,
         layers: layers?,
-        cells: cells?,
-        entries: entries?,
+        cells,
+        entries,
         curves,
         sources,
         tiles: tiles?,

@@ -9,7 +9,8 @@ use crate::issue::{self, Issues};
 use crate::layout::{self, MAX_SECTIONS, entry, header, tile_texels};
 use crate::read::level_order;
 use crate::{
-    Codec, Issue, LayerRecord, SectionInfo, Tag, VtexFile, WriteError, check, codec, source, tile,
+    Codec, Issue, LayerRecord, SectionInfo, Tag, VtexFile, WriteError, check, codec, lists, source,
+    tile,
 };
 
 /// Layers are gathered until their tiles reach this many bytes in memory: large enough to pack well, small
@@ -79,6 +80,8 @@ impl VtexFile {
         })?;
         let provenance = self.provenance.as_ref().map(codec::encode);
         let records: Vec<_> = self.images.iter().map(ImageRecord::of).collect();
+        let cells = lists::stored_cells(&self.cells, &self.entries);
+        let entries = lists::stored_entries(&self.entries, &self.curves);
         let mut parts = vec![
             Part::whole(Tag::META, codec::encode(&self.meta)),
             Part::whole(
@@ -91,8 +94,8 @@ impl VtexFile {
             Part::whole(Tag::SHAP, words_to_little_endian(&self.shapes)),
             Part::whole(Tag::LAYR, words_to_little_endian(&self.layers)),
             Part::whole(Tag::IMAG, words_to_little_endian(&records).into_owned()),
-            Part::whole(Tag::CELL, words_to_little_endian(&self.cells)),
-            Part::whole(Tag::ENTR, words_to_little_endian(&self.entries)),
+            Part::whole(Tag::CELL, words_to_little_endian(&cells).into_owned()),
+            Part::whole(Tag::ENTR, words_to_little_endian(&entries).into_owned()),
             self.curve_part(),
         ];
         parts.extend(self.tile_parts());
