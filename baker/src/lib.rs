@@ -37,6 +37,7 @@ mod judge;
 mod mips;
 mod msdf;
 mod paint_table;
+mod palette;
 mod patch;
 mod placed;
 mod prepare;

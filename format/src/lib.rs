@@ -116,3 +116,4 @@ pub use shape::{
 pub use source::{CurveSources, SourceError, SourceOutline, SourceRecord, SourceSegment};
 pub use spec::{Features, SHADER_ABI, SpecKey, SpecParts};
 pub use tag::Tag;
+pub use write::Executor;
