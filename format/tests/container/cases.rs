@@ -263,7 +263,7 @@ const OUTLINED_VALUES: &[ValueCase] = &[
     (5021, |f| sources(f).records[1].outlines.push(2)),
     (5021, |f| sources(f).outlines[1].segments.clear()),
     (5021, |f| {
-        sources(f).outlines[0].segments[1].control = Some([-1, 0])
+        sources(f).outlines[0].segments[1].control = Some([-1, 0]);
     }),
     (5021, |f| {
         let record = f.sources.as_ref().unwrap().records[0].clone();

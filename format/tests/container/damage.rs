@@ -162,7 +162,7 @@ fn forge_rubbish(file: &VtexFile) {
             }
         }
         if let Ok(file) = VtexFile::parse(&put_together(&forged), &limits) {
-            assert_eq!(file.check(), []);
+            assert_eq!(file.check(), [], "what reads is sound");
         }
         Ok(())
     })
