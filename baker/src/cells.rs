@@ -2,17 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use vtex_format::{CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL, SourceRecord};
+use vtex_format::{
+    CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL, SourceRecord, cut::CellCurves,
+};
 
 use crate::{
-    cover::Cover,
-    curves::{record::encode_record, sweep::CellCurves},
-    drawing::FillRule,
-    error::BakeError,
-    grid::Lattice,
-    paint_table::PaintTable,
-    placed::Placed,
-    subset::Packing,
+    cover::Cover, curves::record::encode_record, drawing::FillRule, error::BakeError,
+    grid::Lattice, paint_table::PaintTable, placed::Placed, subset::Packing,
 };
 
 /// What a cell list is made from: one record an item, in painter's order.

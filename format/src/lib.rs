@@ -65,6 +65,7 @@ mod cell;
 mod check;
 mod codec;
 mod curve;
+pub mod cut;
 mod directory;
 mod error;
 mod file;

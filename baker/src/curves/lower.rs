@@ -1,8 +1,9 @@
 //! Outlines as monotone lines and quadratics between points of the integer lattice.
 
 use kurbo::{BezPath, CubicBez, PathEl, Point, QuadBez};
+use vtex_format::cut::parameter;
 
-use super::{CurveError, clip::parameter};
+use super::CurveError;
 
 /// Largest coordinate in units. Cuts keep a precision far below a unit, and a canvas of 128 cells
 /// is 2^23 units wide.
@@ -32,11 +33,13 @@ pub(crate) struct Segment {
 
 impl Segment {
     /// Smallest x.
+    #[cfg(test)]
     pub(crate) fn x_min(&self) -> f64 {
         self.start.x.min(self.end.x)
     }
 
     /// Largest x.
+    #[cfg(test)]
     pub(crate) fn x_max(&self) -> f64 {
         self.start.x.max(self.end.x)
     }
@@ -241,7 +244,7 @@ fn is_canonical(start: Point, end: Point, after: Point, before: Point) -> bool {
 }
 
 /// `p` moved into the box of two corners.
-pub(super) fn clamp_to_box(p: Point, a: Point, b: Point) -> Point {
+fn clamp_to_box(p: Point, a: Point, b: Point) -> Point {
     Point::new(
         p.x.clamp(a.x.min(b.x), a.x.max(b.x)),
         p.y.clamp(a.y.min(b.y), a.y.max(b.y)),

@@ -3,13 +3,11 @@
 //! section 2.14.
 
 mod bits;
-mod clip;
-mod cut;
-mod record;
+mod cutter;
 mod stream;
 
 use crate::{CurveLattice, Grid};
-use cut::Cutter;
+use cutter::Cutter;
 
 pub(crate) use stream::{decode, decode_head, encode};
 

@@ -34,7 +34,7 @@ pub(crate) struct Head {
 impl Head {
     /// Memory that reading takes, in bytes, before the words themselves.
     pub(crate) fn memory_bytes(&self) -> u64 {
-        let rows = size_of::<super::clip::Segment>() as u64;
+        let rows = size_of::<crate::cut::Segment>() as u64;
         let segment = size_of::<SourceSegment>() as u64 + size_of::<SourceOutline>() as u64;
         let record = size_of::<SourceRecord>() as u64 + 16;
         u64::from(self.segments) * (segment + rows)

@@ -40,6 +40,7 @@ pub(crate) fn size_tables(files: &[PathBuf], resources: &Resources) -> Result<Ve
             "KB (1000 bytes)",
             "shapes",
             "file",
+            "unpacked",
             "file, zoom 256",
             "on the GPU",
             "[SFG22]",
@@ -48,7 +49,7 @@ pub(crate) fn size_tables(files: &[PathBuf], resources: &Resources) -> Result<Ve
         ],
     );
     whole.note(
-        "Default options, and `--max-zoom 256`. `on the GPU`: packed words for lookups. `[SFG22]`: one MSDF of \
+        "Default options, and `--max-zoom 256`. `unpacked`: all sections before zstd. `on the GPU`: packed words for lookups. `[SFG22]`: one MSDF of \
          512 x 512 texels and three bytes a shape, as it is in memory. The raster has four bytes a texel \
          and all mips; its PNG has no mips.",
     );
@@ -114,6 +115,7 @@ impl Sizes {
             Cell::Text(self.name.clone()),
             Cell::Number(self.shapes as f64, 0),
             kilobytes(self.file),
+            whole(self.sections.iter().map(|s| s.raw_bytes).sum()),
             kilobytes(self.high_zoom),
             whole(self.words),
             whole(SFG22_SHAPE_BYTES * self.shapes),

@@ -1,26 +1,11 @@
 //! From outlines to what each record holds.
 
-use std::collections::BTreeMap;
-
-use super::clip::{CellBox, Point, Segment, clip};
-use super::record::{to_u16, words};
 use super::{CurveSources, MAX_WORK, SourceError, SourceOutline, SourceRecord, SourceSegment};
-use crate::{CurveLattice, MAX_CURVE_SEGMENTS};
+use crate::CurveLattice;
+use crate::cut::{CellBox, CellCurves, Point, Segment};
 
 /// What a clip costs beside a comparison of heights.
 const CLIP_WORK: u64 = 16;
-
-/// Shapes inside one cell's box, in units from the box's top left corner.
-#[derive(Clone, Debug, Default)]
-pub(super) struct CellCurves {
-    /// Winding at the box's top left corner.
-    pub(super) base: i32,
-    /// Heights on the box's left edge to the change of the winding there, none of them zero: where
-    /// a contour goes on left of the box its segments' ends cancel.
-    pub(super) steps: BTreeMap<u16, i32>,
-    /// What of the outlines lies in the box.
-    pub(super) segments: Vec<Segment>,
-}
 
 /// Cuts records, keeping for each outline its segments in the row of cells that was last asked for.
 pub(super) struct Cutter<'a> {
@@ -28,7 +13,8 @@ pub(super) struct Cutter<'a> {
     columns: u32,
     lattice: CurveLattice,
     rows: Vec<Option<(u32, Vec<Segment>)>>,
-    work: u64,
+    /// What may still be looked at.
+    work_left: u64,
 }
 
 impl<'a> Cutter<'a> {
@@ -38,34 +24,25 @@ impl<'a> Cutter<'a> {
             columns: columns.max(1),
             lattice,
             rows: vec![None; sources.outlines.len()],
-            work: 0,
+            work_left: MAX_WORK,
         }
     }
 
     /// The words of one record, whose indices have been checked.
     pub(super) fn record(&mut self, record: &SourceRecord) -> Result<Vec<u32>, SourceError> {
         let (column, row) = (record.cell % self.columns, record.cell / self.columns);
-        let cell = self.box_of(column, row);
+        let flatness = f64::from(self.sources.flatness_units);
+        let cell = CellBox::of_cell([column, row], self.lattice, flatness);
         let mut curves = CellCurves::default();
         let mut even_odd = false;
         for &outline in &record.outlines {
             self.cut(outline as usize, row, &cell, &mut curves)?;
-            if curves.segments.len() > 2 * MAX_CURVE_SEGMENTS as usize {
+            if curves.is_too_much() {
                 return Err(SourceError::Overflow);
             }
             even_odd = self.sources.outlines[outline as usize].even_odd;
         }
-        words(&curves, even_odd).ok_or(SourceError::Overflow)
-    }
-
-    fn box_of(&self, column: u32, row: u32) -> CellBox {
-        let (side, margin) = (self.lattice.units_per_cell, self.lattice.margin_units);
-        let corner = |index: u32| f64::from(index) * f64::from(side) - f64::from(margin);
-        CellBox {
-            origin: Point::new(corner(column), corner(row)),
-            size: f64::from(self.lattice.box_units()),
-            flatness: f64::from(self.sources.flatness_units),
-        }
+        curves.record(even_odd).ok_or(SourceError::Overflow)
     }
 
     fn cut(
@@ -77,16 +54,17 @@ impl<'a> Cutter<'a> {
     ) -> Result<(), SourceError> {
         let outline = &self.sources.outlines[index];
         let known = &mut self.rows[index];
+        let mut work = 0;
         if known.as_ref().is_none_or(|(known, _)| *known != row) {
-            self.work += outline.segments.len() as u64;
+            work += outline.segments.len() as u64;
             *known = Some((row, row_segments(outline, cell)));
         }
         let segments = known.as_ref().map_or(&[][..], |(_, segments)| segments);
-        self.work += CLIP_WORK * segments.len() as u64;
-        if self.work > MAX_WORK {
-            return Err(SourceError::Work);
+        work += CLIP_WORK * segments.len() as u64;
+        self.work_left = self.work_left.checked_sub(work).ok_or(SourceError::Work)?;
+        for segment in segments {
+            curves.add(segment, cell);
         }
-        curves.add(segments, cell);
         Ok(())
     }
 }
@@ -115,28 +93,38 @@ fn downward(segment: &SourceSegment) -> Segment {
     }
 }
 
-impl CellCurves {
-    /// Adds what segments are to the box.
-    fn add(&mut self, row: &[Segment], cell: &CellBox) {
-        for segment in row {
-            let clipped = clip(segment, cell);
-            if let Some([top, bottom]) = clipped.left {
-                self.change(top, segment.direction, cell.size);
-                self.change(bottom, -segment.direction, cell.size);
-            }
-            self.segments.extend(clipped.inside);
-        }
-    }
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-    fn change(&mut self, height: f64, change: i32, size: f64) {
-        if height <= 0.0 {
-            self.base = self.base.saturating_add(change);
-        } else if height < size {
-            let sum = self.steps.entry(to_u16(height)).or_default();
-            *sum = sum.saturating_add(change);
-            if *sum == 0 {
-                self.steps.remove(&to_u16(height));
-            }
-        }
+    #[test]
+    fn work_is_bounded() {
+        let corners = [[0, 0], [300, 9_000], [600, 0]];
+        let segment = |i: usize| SourceSegment {
+            from: corners[i],
+            control: None,
+            to: corners[(i + 1) % 3],
+        };
+        let sources = CurveSources {
+            outlines: vec![SourceOutline {
+                even_odd: false,
+                segments: (0..3).map(segment).collect(),
+            }],
+            ..CurveSources::default()
+        };
+        let lattice = CurveLattice {
+            units_per_cell: 1_000,
+            margin_units: 0,
+        };
+        let record = |row: u32| SourceRecord {
+            cell: 2 * row,
+            outlines: vec![0],
+        };
+        // Two of the three segments reach into row 1: 3 to find them, 32 to clip them.
+        let mut cutter = Cutter::new(&sources, 2, lattice);
+        cutter.work_left = 3 + 32 + 32;
+        assert!(cutter.record(&record(1)).is_ok());
+        assert!(cutter.record(&record(1)).is_ok(), "the row is known");
+        assert_eq!(cutter.record(&record(2)), Err(SourceError::Work));
     }
 }

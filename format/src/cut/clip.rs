@@ -2,19 +2,24 @@
 //! products, quotients, square roots, `round` (halves away from zero). `docs/format.md` section
 //! 2.14 gives the same in formulas.
 
+use super::CellBox;
+
 /// A place in units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Point {
-    pub(super) x: f64,
-    pub(super) y: f64,
+pub struct Point {
+    /// To the right.
+    pub x: f64,
+    /// Down.
+    pub y: f64,
 }
 
 impl Point {
-    pub(super) fn new(x: f64, y: f64) -> Self {
+    /// The place `(x, y)`.
+    pub fn new(x: f64, y: f64) -> Self {
         Self { x, y }
     }
 
-    pub(super) fn of([x, y]: [i32; 2]) -> Self {
+    pub(crate) fn of([x, y]: [i32; 2]) -> Self {
         Self::new(f64::from(x), f64::from(y))
     }
 
@@ -36,20 +41,25 @@ impl Point {
 
 /// A monotone segment from its upper to its lower end (equal heights: left to right).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Segment {
-    pub(super) start: Point,
-    pub(super) control: Option<Point>,
-    pub(super) end: Point,
+pub struct Segment {
+    /// Upper end, on the lattice.
+    pub start: Point,
+    /// Control point of a quadratic, inside the box of the ends.
+    pub control: Option<Point>,
+    /// Lower end, on the lattice.
+    pub end: Point,
     /// 1 where the outline runs from start to end, -1 where it runs back.
-    pub(super) direction: i32,
+    pub direction: i32,
 }
 
 impl Segment {
-    pub(super) fn x_min(&self) -> f64 {
+    /// Smallest x.
+    pub fn x_min(&self) -> f64 {
         self.start.x.min(self.end.x)
     }
 
-    fn x_max(&self) -> f64 {
+    /// Largest x.
+    pub fn x_max(&self) -> f64 {
         self.start.x.max(self.end.x)
     }
 
@@ -64,17 +74,6 @@ impl Segment {
             axis(self.start.y, self.control.map(|c| c.y), self.end.y),
         )
     }
-}
-
-/// A cell's box in units.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct CellBox {
-    /// Top left corner.
-    pub(super) origin: Point,
-    /// Side.
-    pub(super) size: f64,
-    /// A quadratic that stays within this of its chord becomes a line.
-    pub(super) flatness: f64,
 }
 
 /// What a segment is to a box.
@@ -186,8 +185,9 @@ fn cut_at_x(segment: &Segment, x: f64, first: Cut, last: Cut) -> Cut {
     }
 }
 
-/// Where a monotone coordinate takes the value `v`, which lies between its ends.
-fn parameter(p0: f64, control: Option<f64>, p2: f64, v: f64) -> f64 {
+/// Where a monotone coordinate with the values `p0`, `control`, `p2` takes the value `v`, which lies
+/// between its ends; in \[0, 1\].
+pub fn parameter(p0: f64, control: Option<f64>, p2: f64, v: f64) -> f64 {
     let t = match control {
         None => (v - p0) / (p2 - p0),
         Some(p1) => {

@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::clip::{Point, Segment};
-use super::cut::CellCurves;
+use super::{CellCurves, Point, Segment};
 use crate::CurveHeader;
 
 /// The record of what a cell holds; `None` when it does not fit.
