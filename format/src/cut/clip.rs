@@ -97,6 +97,17 @@ struct Cut {
 pub(super) fn clip(segment: &Segment, cell: &CellBox) -> Clipped {
     let low = cell.origin;
     let high = Point::new(low.x + cell.size, low.y + cell.size);
+    // What follows says the same of segments wholly beside the box, at the price of their cuts.
+    if segment.x_min() >= high.x {
+        return Clipped::default();
+    }
+    if segment.x_max() <= low.x {
+        let [top, bottom] = [segment.start.y.max(low.y), segment.end.y.min(high.y)];
+        return Clipped {
+            inside: None,
+            left: (top < bottom).then_some([top - low.y, bottom - low.y]),
+        };
+    }
     let mut first = Cut {
         t: 0.0,
         point: segment.start,

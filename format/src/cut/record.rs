@@ -1,7 +1,5 @@
 //! The words of one record.
 
-use std::collections::BTreeMap;
-
 use super::{CellCurves, Point, Segment};
 use crate::CurveHeader;
 
@@ -36,28 +34,27 @@ pub(super) fn words(curves: &CellCurves, even_odd: bool) -> Option<Vec<u32>> {
 /// Segments in an order in which most start where the one before ends, the topmost of those that
 /// are left beginning a chain; of several with one start the last comes first.
 fn chained<'a>(segments: impl Iterator<Item = &'a Segment>) -> Vec<&'a Segment> {
-    let mut starts: BTreeMap<[u16; 2], Vec<&Segment>> = BTreeMap::new();
     let key = |p: Point| [to_u16(p.y), to_u16(p.x)];
-    let mut left = 0_usize;
-    for segment in segments {
-        starts.entry(key(segment.start)).or_default().push(segment);
-        left += 1;
-    }
-    let mut chain = Vec::with_capacity(left);
-    let mut at = None;
-    while chain.len() < left {
-        let next = at
-            .filter(|key| starts.contains_key(key))
-            .or_else(|| starts.first_key_value().map(|(key, _)| *key));
-        let Some(key_here) = next else { break };
-        if let Some(here) = starts.get_mut(&key_here) {
-            let segment = here.pop();
-            if here.is_empty() {
-                starts.remove(&key_here);
-            }
-            at = segment.map(|segment| key(segment.end));
-            chain.extend(segment);
+    let mut sorted: Vec<(&Segment, bool)> = segments.map(|segment| (segment, false)).collect();
+    sorted.reverse();
+    sorted.sort_by_key(|(segment, _)| key(segment.start));
+    let mut chain: Vec<&Segment> = Vec::with_capacity(sorted.len());
+    let mut topmost = 0;
+    while chain.len() < sorted.len() {
+        let follows = chain.last().and_then(|last| {
+            let at = key(last.end);
+            let first = sorted.partition_point(|(segment, _)| key(segment.start) < at);
+            let here = sorted[first..].iter();
+            let here = here.take_while(|(segment, _)| key(segment.start) == at);
+            let free = here.enumerate().find(|(_, (_, taken))| !taken);
+            free.map(|(place, _)| first + place)
+        });
+        while follows.is_none() && sorted[topmost].1 {
+            topmost += 1;
         }
+        let next = &mut sorted[follows.unwrap_or(topmost)];
+        next.1 = true;
+        chain.push(next.0);
     }
     chain
 }

@@ -60,11 +60,15 @@ impl<'a> BitReader<'a> {
 
     /// `None` past the end.
     fn take(&mut self, count: u32) -> Option<u64> {
-        let mut value = 0;
-        for bit in 0..count {
+        let (mut value, mut taken) = (0, 0);
+        while taken < count {
             let byte = self.bytes.get(self.next / 8)?;
-            value |= u64::from(byte >> (self.next % 8) & 1) << bit;
-            self.next += 1;
+            let skipped = u32::try_from(self.next % 8).ok()?;
+            let here = (8 - skipped).min(count - taken);
+            let bits = u64::from(byte >> skipped) & ((1 << here) - 1);
+            value |= bits << taken;
+            taken += here;
+            self.next += here as usize;
         }
         Some(value)
     }

@@ -72,10 +72,12 @@ impl<'a> Cutter<'a> {
 /// The segments of which more than an end lies in the box's rows, by their smallest x.
 fn row_segments(outline: &SourceOutline, cell: &CellBox) -> Vec<Segment> {
     let (top, bottom) = (cell.origin.y, cell.origin.y + cell.size);
-    let all = outline.segments.iter().map(downward);
-    let mut row: Vec<Segment> = all
-        .filter(|segment| segment.end.y > top && segment.start.y < bottom)
-        .collect();
+    let reaches = |segment: &&SourceSegment| {
+        let [a, b] = [segment.from[1], segment.to[1]].map(f64::from);
+        a.max(b) > top && a.min(b) < bottom
+    };
+    let segments = outline.segments.iter().filter(reaches);
+    let mut row: Vec<Segment> = segments.map(downward).collect();
     row.sort_by(|a, b| a.x_min().total_cmp(&b.x_min()));
     row
 }
