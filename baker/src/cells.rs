@@ -2,17 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use vtex_format::{CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL};
+use vtex_format::{
+    CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL, SourceRecord, cut::CellCurves,
+};
 
 use crate::{
-    cover::Cover,
-    curves::{record::encode_record, sweep::CellCurves},
-    drawing::FillRule,
-    error::BakeError,
-    grid::Lattice,
-    paint_table::PaintTable,
-    placed::Placed,
-    subset::Packing,
+    cover::Cover, curves::record::encode_record, drawing::FillRule, error::BakeError,
+    grid::Lattice, paint_table::PaintTable, placed::Placed, subset::Packing,
 };
 
 /// What a cell list is made from: one record an item, in painter's order.
@@ -41,6 +37,8 @@ pub(crate) struct CellLists {
     pub(crate) tiles: Vec<TileDraft>,
     /// Curve records, one after the other.
     pub(crate) curves: Vec<u32>,
+    /// What each of them is cut from; outlines are items here.
+    pub(crate) sources: Vec<SourceRecord>,
 }
 
 /// A tile that some cell lists.
@@ -70,6 +68,7 @@ struct CurvesDraft<'a> {
     rank: u32,
     rule: FillRule,
     parts: Vec<&'a CellCurves>,
+    source: SourceRecord,
     words: Vec<u32>,
 }
 
@@ -184,6 +183,10 @@ fn draft_item<'a>(input: &CellInput<'a>, item: u32, full: bool, cell: u32) -> Dr
             // Every part fits a record of its own, or the shape would not be curves.
             words: encode_record(&[part], rule).unwrap_or_default(),
             parts: vec![part],
+            source: SourceRecord {
+                cell,
+                outlines: vec![item],
+            },
         });
     }
     let layer = input.layer_of_rank[rank as usize];
@@ -235,6 +238,7 @@ impl CurvesDraft<'_> {
             return false;
         };
         (self.parts, self.words) = (parts, words);
+        self.source.outlines.extend(&other.source.outlines);
         true
     }
 }
@@ -290,7 +294,7 @@ impl ListEncoder<'_> {
         let (kind, index, data) = match draft {
             Draft::Full { paint } => (EntryKind::Full, *paint, 0),
             Draft::Curves(curves) => {
-                let record = self.record_offset(&curves.words)?;
+                let record = self.record_offset(curves)?;
                 (EntryKind::Curves, curves.paint, record)
             }
             Draft::Image { image } => (EntryKind::Image, *image, 0),
@@ -309,7 +313,8 @@ impl ListEncoder<'_> {
         })
     }
 
-    fn record_offset(&mut self, words: &[u32]) -> Result<u32, BakeError> {
+    fn record_offset(&mut self, draft: &CurvesDraft<'_>) -> Result<u32, BakeError> {
+        let words = &draft.words;
         if let Some(&offset) = self.records.get(words) {
             return Ok(offset);
         }
@@ -317,7 +322,8 @@ impl ListEncoder<'_> {
         let offset = u32::try_from(curves.len())
             .map_err(|_| BakeError::Limit("the cells' curves are too many".into()))?;
         curves.extend(words);
-        self.records.insert(words.to_vec(), offset);
+        self.records.insert(words.clone(), offset);
+        self.lists.sources.push(draft.source.clone());
         Ok(offset)
     }
 }

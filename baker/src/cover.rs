@@ -2,7 +2,7 @@
 
 use kurbo::Affine;
 use rayon::prelude::*;
-use vtex_format::CurveLattice;
+use vtex_format::{CurveLattice, SourceOutline, cut::CellCurves};
 
 use crate::{
     classify::{ShapeCells, classify},
@@ -10,7 +10,7 @@ use crate::{
         CurveError,
         lower::LoweredOutline,
         record::encode_record,
-        sweep::{CellCurves, CutParams, cut_to_cells},
+        sweep::{CutParams, cut_to_cells},
     },
     drawing::{Drawing, to_f32},
     geometry::floor_index,
@@ -18,6 +18,7 @@ use crate::{
     judge::{Coverage, PIXELS_AT_ZOOM_1, Reason, Verdict},
     placed::{Placed, PlacedKind, place_item},
     scales::Scales,
+    sources::source_outline,
 };
 
 /// How far lowering may move a curve, and making lines of flat ones, in pixels at maximum zoom.
@@ -37,6 +38,8 @@ pub(crate) struct Cover {
     pub(crate) cells: ShapeCells,
     /// Its outline in each cell that lists it, if it is curves.
     pub(crate) curves: Vec<CellCurves>,
+    /// The whole outline as the file stores it, if it is curves and the lattice holds it.
+    pub(crate) source: Option<SourceOutline>,
 }
 
 impl Cover {
@@ -45,6 +48,15 @@ impl Cover {
         let index = self.cells.listed.binary_search(&cell).ok()?;
         self.curves.get(index)
     }
+}
+
+/// Within how many units of its chord a quadratic may stay to become a line, and a quadratic of the
+/// cubic it stands for. A number that a file holds exactly.
+pub(crate) fn flatness_units(lattice: &Lattice, curve_lattice: CurveLattice, max_zoom: f32) -> f32 {
+    let units_per_step = f64::from(curve_lattice.units_per_cell) / lattice.cell_steps();
+    let units_per_px =
+        units_per_step * lattice.longer_steps() / (PIXELS_AT_ZOOM_1 * f64::from(max_zoom));
+    to_f32((TOLERANCE_PX * units_per_px).max(MIN_TOLERANCE_UNITS))
 }
 
 /// The lattice of curve records on `lattice`, or `None` where nothing needs one.
@@ -103,7 +115,7 @@ pub(crate) fn cover(
         }
         Cover {
             cells: classify(placed, lattice, scales.distances),
-            curves: Vec::new(),
+            ..Cover::default()
         }
     };
     placed
@@ -122,13 +134,11 @@ struct Cutter {
 impl Cutter {
     fn new(lattice: &Lattice, curve_lattice: CurveLattice, max_zoom: f32) -> Self {
         let units_per_step = f64::from(curve_lattice.units_per_cell) / lattice.cell_steps();
-        let units_per_px =
-            units_per_step * lattice.longer_steps() / (PIXELS_AT_ZOOM_1 * f64::from(max_zoom));
         Self {
             params: CutParams {
                 size_cells: lattice.grid.size_cells,
                 lattice: curve_lattice,
-                flatness_units: (TOLERANCE_PX * units_per_px).max(MIN_TOLERANCE_UNITS),
+                flatness_units: f64::from(flatness_units(lattice, curve_lattice, max_zoom)),
             },
             units_from_steps: Affine::scale(units_per_step),
         }
@@ -138,6 +148,7 @@ impl Cutter {
         let outline = self.units_from_steps * &placed.outline;
         let lowered = LoweredOutline::new(&outline, self.params.flatness_units)?;
         let shape = cut_to_cells(&lowered, &self.params);
+        let source = source_outline(&lowered, placed.rule);
         let mut cells = ShapeCells::default();
         for (cell, winding) in shape.covered {
             if placed.rule.fills(winding) {
@@ -150,7 +161,11 @@ impl Cutter {
             cells.listed.push(cell);
             curves.push(cell_curves);
         }
-        Ok(Cover { cells, curves })
+        Ok(Cover {
+            cells,
+            curves,
+            source,
+        })
     }
 }
 

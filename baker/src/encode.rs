@@ -8,7 +8,7 @@ use vtex_shaders::{SpecParts, shader_blob, spec_key_from_parts};
 use crate::{
     cells::{CellInput, CellLists, build_cells},
     config::{BakeConfig, Stage},
-    cover::{cover, curve_lattice},
+    cover::{cover, curve_lattice, flatness_units},
     drawing::Drawing,
     error::BakeError,
     grid::Lattice,
@@ -18,6 +18,7 @@ use crate::{
     placed::{Placed, PlacedKind, place},
     records,
     scales::Scales,
+    sources::sources,
     subset::{Packing, merge_all, pack},
 };
 
@@ -75,6 +76,10 @@ pub(crate) fn assemble(
     let warnings = records::warnings(&mut drawing, &placed, &packing, &lists);
     let curve_lattice = curve_lattice(&placed, &lattice, &scales, config.max_zoom)
         .filter(|_| !lists.curves.is_empty());
+    let sources = curve_lattice.and_then(|curve_lattice| {
+        let flatness = flatness_units(&lattice, curve_lattice, config.max_zoom);
+        sources(&covers, &lists.sources, flatness)
+    });
     let meta = records::meta(&drawing, config, &lattice, curve_lattice, &scales, outline);
     let shapes = records::shape_records(&input, &lattice);
     let layers = layers.records(&lists);
@@ -99,6 +104,7 @@ pub(crate) fn assemble(
         entries: lists.entries,
         tiles,
         curves: lists.curves,
+        sources,
         provenance: Some(records::provenance(
             &drawing,
             &placed,

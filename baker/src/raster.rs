@@ -14,6 +14,7 @@ use vtex_format::Image;
 use crate::color;
 use crate::drawing::{FillRule, Item, Patch, Shape};
 use crate::mips::{self, LinearImage};
+use crate::palette;
 use crate::resample;
 
 /// Rows painted by one task. A constant, so that the picture does not depend on thread counts.
@@ -59,10 +60,11 @@ impl View {
         ])
     }
 
-    fn band(self, index: u32) -> Self {
-        let top = index * BAND_ROWS;
+    /// The band of `rows` rows with an index.
+    fn band(self, index: u32, rows: u32) -> Self {
+        let top = index * rows;
         Self {
-            size: [self.size[0], BAND_ROWS.min(self.size[1] - top)],
+            size: [self.size[0], rows.min(self.size[1] - top)],
             origin: [self.origin[0], self.origin[1] + f64::from(top)],
             ..self
         }
@@ -84,9 +86,64 @@ pub(crate) fn canvas_texels(canvas_size: [f64; 2], longer_side: u32) -> [u32; 2]
 pub(crate) fn canvas_mips(items: &[Item], canvas_size: [f64; 2], mip0_size: u32) -> Image {
     let size = canvas_texels(canvas_size, mip0_size);
     let samples = (MAX_PICTURE_SIDE / mip0_size).clamp(1, SUPERSAMPLING);
+    let picture = supersampled_picture(items, canvas_size, size, samples);
+    let mut image = mips::chain(picture, [0.0, 0.0, 1.0, 1.0]);
+    // A raster may hold gradients, which steps of a few codes would turn into bands.
+    if items.iter().all(|item| matches!(item, Item::Shape(_))) {
+        image
+            .mips
+            .par_iter_mut()
+            .for_each(|level| palette::join_near_colors(level));
+    }
+    image
+}
+
+/// The canvas on `size` texels, each the average of `samples` a side.
+fn supersampled_picture(
+    items: &[Item],
+    canvas_size: [f64; 2],
+    size: [u32; 2],
+    samples: u32,
+) -> LinearImage {
     let view = View::canvas(canvas_size, size.map(|side| side * samples));
-    let picture = linear_picture(items, view);
-    mips::chain(picture.reduced(size), [0.0, 0.0, 1.0, 1.0])
+    let rows = BAND_ROWS / samples * samples;
+    let texels = (0..view.size[1].div_ceil(rows))
+        .into_par_iter()
+        .flat_map_iter(|index| {
+            picture(items, view.band(index, rows))
+                .map(|pixmap| block_averages(&pixmap, size[0], samples))
+                .unwrap_or_default()
+        })
+        .collect();
+    LinearImage { size, texels }
+}
+
+/// Averages of squares of `side` texels, `columns` of them in a row.
+fn block_averages(pixmap: &Pixmap, columns: u32, side: u32) -> Vec<[f32; 4]> {
+    let texels = pixmap.data().as_chunks::<4>().0;
+    let (columns, side) = (columns as usize, side as usize);
+    let weight = 1.0 / (side * side) as f32;
+    let mut averages = Vec::with_capacity(texels.len() / (side * side));
+    for rows in texels.chunks_exact(columns * side * side) {
+        averages.extend((0..columns).map(|column| {
+            let block = rows.chunks_exact(columns * side);
+            let block = block.map(|row| &row[column * side..(column + 1) * side]);
+            let first = rows[column * side];
+            // Most squares have one colour.
+            if block.clone().flatten().all(|texel| *texel == first) {
+                return color::linear_from_skia(first);
+            }
+            let mut sum = [0.0; 4];
+            for &texel in block.flatten() {
+                let linear = color::linear_from_skia(texel);
+                for (sum, linear) in sum.iter_mut().zip(linear) {
+                    *sum += weight * linear;
+                }
+            }
+            sum
+        }));
+    }
+    averages
 }
 
 /// The items in linear light.
@@ -95,7 +152,7 @@ pub(crate) fn linear_picture(items: &[Item], view: View) -> LinearImage {
     let texels = (0..bands)
         .into_par_iter()
         .flat_map_iter(|index| {
-            let band = view.band(index);
+            let band = view.band(index, BAND_ROWS);
             picture(items, band)
                 .map(|pixmap| linear_texels(&pixmap))
                 .unwrap_or_default()

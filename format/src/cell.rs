@@ -7,7 +7,7 @@ pub const CELL_TAG_SHIFT: u32 = 30;
 pub const MAX_ENTRIES_PER_CELL: u32 = 4096;
 
 const PAYLOAD_MASK: u32 = (1 << CELL_TAG_SHIFT) - 1;
-const KIND_SHIFT: u32 = 28;
+pub(crate) const KIND_SHIFT: u32 = 28;
 pub(crate) const LAST_BIT: u32 = 1 << 27;
 const OPAQUE_BIT: u32 = 1 << 26;
 const INDEX_MASK: u32 = OPAQUE_BIT - 1;

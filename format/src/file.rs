@@ -1,6 +1,9 @@
 //! A whole file as a value.
 
-use crate::{Image, LayerRecord, Meta, PaintRecord, Provenance, ShaderBlob, ShapeRecord, SpecKey};
+use crate::{
+    CurveSources, Image, LayerRecord, Meta, PaintRecord, Provenance, ShaderBlob, ShapeRecord,
+    SpecKey,
+};
 
 /// One vector texture, read and checked or about to be written.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +26,9 @@ pub struct VtexFile {
     pub entries: Vec<u32>,
     /// Curve records one after the other: [`crate::CurveHeader`].
     pub curves: Vec<u32>,
+    /// What `curves` is made from; a file then holds it instead of them, which takes a fraction of
+    /// the bytes.
+    pub sources: Option<CurveSources>,
     /// MSDF tiles, layer by layer: [`LayerRecord`].
     pub tiles: Vec<u8>,
     /// Raster images; with [`crate::Features::MIPS`] the first is the canvas itself.

@@ -147,6 +147,7 @@ issue_table! {
     FRAME = 2017 Malformed "the zstd frame does not hold the raw bytes";
     HASH = 2018 Malformed "the hash of the raw bytes differs";
     MEMORY = 2019 Limits "there is no memory for the raw bytes";
+    OUTLINE_BUDGET = 2020 Limits "the curve records that outlines make exceed the budget";
 
     META_BUDGET = 3001 Limits "META exceeds its budget";
     PROV_BUDGET = 3002 Limits "PROV exceeds its budget";
@@ -211,6 +212,9 @@ issue_table! {
     ENTRY_OPAQUE = 5015 Malformed "an entry is called opaque and its paint or image is not";
     ENTRY_CURVES = 5016 Malformed "the curve record of an entry does not exist or reaches beyond its section";
     CURVE_HEADER = 5020 Malformed "the header of a curve record has no meaning";
+    OUTLINES = 5021 Malformed "the outlines make no curve records";
+    OUTLINE_RECORDS = 5022 Malformed "the curve records are not those that the outlines make";
+    OUTLINE_TWICE = 5023 Malformed "there are curve records beside the outlines that make them";
 
     TILE_PARTS = 6001 Malformed "the layer ranges of TILE do not follow each other to the last layer";
     TILE_BYTES = 6002 Malformed "the tiles are not as many bytes as the layers say";

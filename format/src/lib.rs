@@ -45,6 +45,7 @@
 //!     cells: vec![red.encode().expect("0 fits 30 bits")],
 //!     entries: Vec::new(),
 //!     curves: Vec::new(),
+//!     sources: None,
 //!     tiles: Vec::new(),
 //!     images: Vec::new(),
 //!     provenance: None,
@@ -64,6 +65,7 @@ mod cell;
 mod check;
 mod codec;
 mod curve;
+pub mod cut;
 mod directory;
 mod error;
 mod file;
@@ -74,6 +76,7 @@ mod issue;
 mod layer;
 mod layout;
 mod limits;
+mod lists;
 mod meta;
 mod paint;
 mod prov;
@@ -81,6 +84,7 @@ mod read;
 mod section;
 mod shader;
 mod shape;
+mod source;
 mod spec;
 mod tag;
 mod tile;
@@ -113,5 +117,7 @@ pub use shader::ShaderBlob;
 pub use shape::{
     COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, FILL_EVEN_ODD, FILL_NON_ZERO, ShapeRecord,
 };
+pub use source::{CurveSources, SourceError, SourceOutline, SourceRecord, SourceSegment};
 pub use spec::{Features, SHADER_ABI, SpecKey, SpecParts};
 pub use tag::Tag;
+pub use write::Executor;

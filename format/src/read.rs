@@ -7,8 +7,9 @@ use crate::directory::{entry_offset, read_directory, slice};
 use crate::image::ImageRecord;
 use crate::issue::{self, Issues};
 use crate::layout::{TILE_PLANES, entry, tile_texels};
+use crate::{CurveSources, Issue, SourceError, SpecKey, Tag, VtexFile};
 use crate::{Image, LayerRecord, Limits, Meta, Provenance, ReadError, SectionInfo, ShaderBlob};
-use crate::{Issue, SpecKey, Tag, VtexFile, check, codec, frame, tile};
+use crate::{check, codec, frame, lists, source, tile};
 
 impl VtexFile {
     /// Reads and checks a whole file: what this returns is safe to evaluate.
@@ -48,11 +49,15 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
     let images = loader.records(Tag::IMAG);
     let cells = loader.cells(&meta);
     let entries = loader.records(Tag::ENTR);
-    let curves = loader.records(Tag::CURV);
+    let curves = loader.curves(&meta, limits);
     let tiles = layers
         .as_deref()
         .and_then(|layers| loader.tiles(&meta, layers));
     let images = images.as_deref().and_then(|records| loader.images(records));
+    let (curves, sources) = curves?;
+    let (mut cells, mut entries) = (cells?, entries?);
+    lists::entries_from_stored(&mut entries, &curves);
+    lists::cells_from_stored(&mut cells, &entries);
     let file = VtexFile {
         meta,
         spec: spec?,
@@ -60,9 +65,10 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
         paints: paints?,
         shapes: shapes?,
         layers: layers?,
-        cells: cells?,
-        entries: entries?,
-        curves: curves?,
+        cells,
+        entries,
+        curves,
+        sources,
         tiles: tiles?,
         images: images?,
         provenance: provenance?,
@@ -190,6 +196,23 @@ impl Loader<'_> {
         self.records(Tag::CELL)
     }
 
+    /// The curve records, stored or cut from outlines.
+    fn curves(&mut self, meta: &Meta, limits: &Limits) -> Option<(Vec<u32>, Option<CurveSources>)> {
+        let Some(&(index, _)) = self.all(Tag::OUTL).first() else {
+            return Some((self.records(Tag::CURV)?, None));
+        };
+        if !self.all(Tag::CURV).is_empty() {
+            let refusal = (issue::OUTLINE_TWICE, "beside CURV".to_owned());
+            return self.accept(index, Err(refusal));
+        }
+        let raw: Vec<u8> = self.load(index)?;
+        let known = self.sections.iter().filter(|s| s.tag.kind().is_some());
+        let spent: u64 = known.map(|section| section.raw_bytes).sum();
+        let budget = limits.total_raw_bytes.saturating_sub(spent);
+        let (words, sources) = self.accept(index, cut_records(&raw, meta, budget))?;
+        Some((words, Some(sources)))
+    }
+
     /// The tiles of all layers, from sections whose layer ranges follow each other.
     fn tiles(&mut self, meta: &Meta, layers: &[LayerRecord]) -> Option<Vec<u8>> {
         let parts = self.all(Tag::TILE);
@@ -278,6 +301,38 @@ impl Loader<'_> {
         }
         Some(images)
     }
+}
+
+/// The records that the bytes of `OUTL` make, in at most `budget` bytes of memory.
+fn cut_records(
+    raw: &[u8],
+    meta: &Meta,
+    budget: u64,
+) -> Result<(Vec<u32>, CurveSources), frame::Refusal> {
+    let refuse = |error: SourceError| {
+        let kind = match error {
+            SourceError::Work => issue::OUTLINE_BUDGET,
+            _ => issue::OUTLINES,
+        };
+        (kind, error.to_string())
+    };
+    let no_lattice = || (issue::CURVE_LATTICE_USE, "no lattice".to_owned());
+    let lattice = meta.curve_lattice.ok_or_else(no_lattice)?;
+    let head = source::decode_head(raw).map_err(refuse)?;
+    let needed = head.memory_bytes();
+    if needed > budget {
+        let message = format!("{needed} bytes, {budget} are left of total_raw_bytes");
+        return Err((issue::OUTLINE_BUDGET, message));
+    }
+    let sources = source::decode(raw).map_err(refuse)?;
+    let words = sources
+        .records_within(&meta.grid, lattice, u64::from(head.words))
+        .map_err(refuse)?;
+    if !head.vouches_for(&words) {
+        let message = "the records are not those that the writer had".to_owned();
+        return Err((issue::OUTLINE_RECORDS, message));
+    }
+    Ok((words, sources))
 }
 
 /// `(level, image)` in file order: the highest level first, images ascending within it.

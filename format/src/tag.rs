@@ -33,6 +33,8 @@ impl Tag {
     pub const ENTR: Self = Self(*b"ENTR");
     /// Curve records.
     pub const CURV: Self = Self(*b"CURV");
+    /// Outlines that curve records are cut from: [`crate::CurveSources`].
+    pub const OUTL: Self = Self(*b"OUTL");
     /// MSDF tiles of a run of layers.
     pub const TILE: Self = Self(*b"TILE");
     /// Texels of one level of one image.
@@ -82,7 +84,7 @@ pub(crate) struct SectionKind {
 }
 
 /// All sections of this version in file order: what bounds the others comes first, texels last.
-pub(crate) const SECTIONS: [SectionKind; 13] = [
+pub(crate) const SECTIONS: [SectionKind; 14] = [
     section(Tag::META, true, true, false),
     section(Tag::SPEC, true, true, false),
     section(Tag::SHDR, false, true, false),
@@ -94,6 +96,7 @@ pub(crate) const SECTIONS: [SectionKind; 13] = [
     section(Tag::CELL, true, true, false),
     section(Tag::ENTR, true, false, false),
     section(Tag::CURV, true, false, false),
+    section(Tag::OUTL, true, false, false),
     section(Tag::TILE, true, false, true),
     section(Tag::MIPS, true, false, true),
 ];

@@ -1,6 +1,7 @@
 //! Value to bytes: the same value gives the same bytes.
 
 use std::borrow::Cow;
+use std::sync::OnceLock;
 
 use crate::frame::{self, words_to_little_endian};
 use crate::header::{Header, put};
@@ -9,12 +10,16 @@ use crate::issue::{self, Issues};
 use crate::layout::{self, MAX_SECTIONS, entry, header, tile_texels};
 use crate::read::level_order;
 use crate::{
-    Codec, Issue, LayerRecord, SectionInfo, Tag, VtexFile, WriteError, check, codec, tile,
+    Codec, Issue, LayerRecord, SectionInfo, Tag, VtexFile, WriteError, check, codec, lists, source,
+    tile,
 };
 
 /// Layers are gathered until their tiles reach this many bytes in memory: large enough to pack well, small
 /// enough to be a useful part.
 const TILE_PART_BYTES: u64 = 4 << 20;
+
+/// Runs jobs: calls its second argument once for every number below the first.
+pub type Executor<'a> = dyn Fn(usize, &(dyn Fn(usize) + Sync)) + 'a;
 
 /// A section before it is packed.
 struct Part<'a> {
@@ -44,15 +49,31 @@ impl VtexFile {
     /// [`WriteError::Invalid`] for a value that reading would refuse; that is a fault of the
     /// program that made it.
     pub fn to_bytes(&self) -> Result<Vec<u8>, WriteError> {
+        self.to_bytes_by(&|count, job| (0..count).for_each(job))
+    }
+
+    /// As [`VtexFile::to_bytes`], with the caller's threads: `run(count, job)` calls `job` once for
+    /// every number below `count`, in any order and at once if it likes. The bytes are the same.
+    ///
+    /// # Errors
+    /// As [`VtexFile::to_bytes`].
+    ///
+    /// # Panics
+    /// If `run` leaves out a number.
+    pub fn to_bytes_by(&self, run: &Executor<'_>) -> Result<Vec<u8>, WriteError> {
         let mut issues = Issues::default();
         check::file(self, &mut issues);
         issues.accept(Some(()))?;
         let parts = self.parts()?;
-        let mut stored = Vec::with_capacity(parts.len());
-        for part in &parts {
-            stored.push(frame::compress(&part.raw).map_err(WriteError::Compress)?);
-        }
-        Ok(assemble(&parts, &stored))
+        let slots: Vec<OnceLock<_>> = parts.iter().map(|_| OnceLock::new()).collect();
+        run(parts.len(), &|index| {
+            slots[index].get_or_init(|| frame::compress(&parts[index].raw));
+        });
+        let stored = slots.into_iter().map(|slot| {
+            let packed = slot.into_inner().expect("the caller runs every job");
+            packed.map_err(WriteError::Compress)
+        });
+        Ok(assemble(&parts, &stored.collect::<Result<Vec<_>, _>>()?))
     }
 
     /// Everything wrong with the value, up to 256 issues; what [`VtexFile::parse`] returns has
@@ -79,6 +100,8 @@ impl VtexFile {
         })?;
         let provenance = self.provenance.as_ref().map(codec::encode);
         let records: Vec<_> = self.images.iter().map(ImageRecord::of).collect();
+        let cells = lists::stored_cells(&self.cells, &self.entries);
+        let entries = lists::stored_entries(&self.entries, &self.curves);
         let mut parts = vec![
             Part::whole(Tag::META, codec::encode(&self.meta)),
             Part::whole(
@@ -91,9 +114,9 @@ impl VtexFile {
             Part::whole(Tag::SHAP, words_to_little_endian(&self.shapes)),
             Part::whole(Tag::LAYR, words_to_little_endian(&self.layers)),
             Part::whole(Tag::IMAG, words_to_little_endian(&records).into_owned()),
-            Part::whole(Tag::CELL, words_to_little_endian(&self.cells)),
-            Part::whole(Tag::ENTR, words_to_little_endian(&self.entries)),
-            Part::whole(Tag::CURV, words_to_little_endian(&self.curves)),
+            Part::whole(Tag::CELL, words_to_little_endian(&cells).into_owned()),
+            Part::whole(Tag::ENTR, words_to_little_endian(&entries).into_owned()),
+            self.curve_part(),
         ];
         parts.extend(self.tile_parts());
         parts.extend(self.mip_parts());
@@ -103,6 +126,14 @@ impl VtexFile {
             return Err(refuse(issue::SECTION_COUNT, Tag::HEAD, message));
         }
         Ok(parts)
+    }
+
+    /// The outlines where there are some, else the records.
+    fn curve_part(&self) -> Part<'_> {
+        match &self.sources {
+            Some(sources) => Part::whole(Tag::OUTL, source::encode(sources, &self.curves)),
+            None => Part::whole(Tag::CURV, words_to_little_endian(&self.curves)),
+        }
     }
 
     /// Runs of whole layers; trailing layers without tiles join the last run.

@@ -61,6 +61,7 @@ pub fn random_texture(seed: u64, features: u32) -> VtexFile {
         cells: Vec::new(),
         entries: Vec::new(),
         curves: Vec::new(),
+        sources: None,
         tiles: Vec::new(),
         images: Vec::new(),
         provenance: None,

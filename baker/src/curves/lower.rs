@@ -1,8 +1,9 @@
 //! Outlines as monotone lines and quadratics between points of the integer lattice.
 
 use kurbo::{BezPath, CubicBez, PathEl, Point, QuadBez};
+use vtex_format::cut::parameter;
 
-use super::{CurveError, clip::parameter};
+use super::CurveError;
 
 /// Largest coordinate in units. Cuts keep a precision far below a unit, and a canvas of 128 cells
 /// is 2^23 units wide.
@@ -32,11 +33,13 @@ pub(crate) struct Segment {
 
 impl Segment {
     /// Smallest x.
+    #[cfg(test)]
     pub(crate) fn x_min(&self) -> f64 {
         self.start.x.min(self.end.x)
     }
 
     /// Largest x.
+    #[cfg(test)]
     pub(crate) fn x_max(&self) -> f64 {
         self.start.x.max(self.end.x)
     }
@@ -59,7 +62,7 @@ impl Segment {
 /// A shape's outline in units, ready to be cut.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LoweredOutline {
-    /// The segments of all contours; every contour is a closed chain.
+    /// The segments of all contours, along the contours; every contour is a closed chain.
     pub(crate) segments: Vec<Segment>,
 }
 
@@ -133,6 +136,7 @@ impl Lowering {
     }
 
     fn quad(&mut self, quad: QuadBez) {
+        let first = self.segments.len();
         // The same quadratic backwards is cut at the same points.
         let (quad, forward) = if is_canonical(quad.p0, quad.p2, quad.p1, quad.p1) {
             (quad, true)
@@ -162,9 +166,11 @@ impl Lowering {
             self.push_along(forward, from.1, control, end);
             from = (t, end);
         }
+        self.put_in_order(first, forward);
     }
 
     fn cubic(&mut self, cubic: CubicBez) {
+        let first = self.segments.len();
         let (cubic, forward) = if is_canonical(cubic.p0, cubic.p3, cubic.p1, cubic.p2) {
             (cubic, true)
         } else {
@@ -181,6 +187,7 @@ impl Lowering {
                 from = t;
             }
         }
+        self.put_in_order(first, forward);
     }
 
     /// Both coordinates of `cubic` are monotone.
@@ -194,6 +201,14 @@ impl Lowering {
                 break;
             }
             (from, step) = (to, STEP_GROWTH * (to - from));
+        }
+    }
+
+    /// Pieces of a curve that was cut backwards, from the one with index `first` on, follow its own
+    /// direction again.
+    fn put_in_order(&mut self, first: usize, forward: bool) {
+        if !forward {
+            self.segments[first..].reverse();
         }
     }
 
@@ -229,7 +244,7 @@ fn is_canonical(start: Point, end: Point, after: Point, before: Point) -> bool {
 }
 
 /// `p` moved into the box of two corners.
-pub(super) fn clamp_to_box(p: Point, a: Point, b: Point) -> Point {
+fn clamp_to_box(p: Point, a: Point, b: Point) -> Point {
     Point::new(
         p.x.clamp(a.x.min(b.x), a.x.max(b.x)),
         p.y.clamp(a.y.min(b.y), a.y.max(b.y)),

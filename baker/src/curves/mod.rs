@@ -10,7 +10,6 @@
 //! and to the step outside, and all comparisons of y are half open. So on every height the
 //! crossings add up, and a lookup can be wrong only within rounding of an edge.
 
-mod clip;
 pub(crate) mod lower;
 pub(crate) mod record;
 pub(crate) mod sweep;

@@ -1,15 +1,13 @@
 //! From a lowered outline to every cell it passes through or fills.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 
-use kurbo::Point;
-use vtex_format::CurveLattice;
-
-use super::{
-    clip::{CellBox, clip},
-    lower::{LoweredOutline, Segment},
+use vtex_format::{
+    CurveLattice,
+    cut::{CellBox, CellCurves, Point, Segment},
 };
+
+use super::lower::{self, LoweredOutline};
 
 /// What a shape is to the cells. Cells are indices, row by row from the top.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,17 +16,6 @@ pub(crate) struct ShapeCurves {
     pub(crate) covered: Vec<(u32, i32)>,
     /// Cells with some outline in their box, ascending.
     pub(crate) edges: Vec<(u32, CellCurves)>,
-}
-
-/// A shape inside one cell's box, in units from the box's top left corner.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct CellCurves {
-    /// Winding at the box's top left corner.
-    pub(crate) base: i32,
-    /// Heights on the box's left edge at which the winding changes, ascending, and by how much.
-    pub(crate) steps: Vec<(f64, i32)>,
-    /// What of the outline lies in the box.
-    pub(crate) segments: Vec<Segment>,
 }
 
 /// Where the cells are and how fine the cut is.
@@ -52,12 +39,7 @@ impl CutParams {
     }
 
     fn box_of(&self, column: u32, row: u32) -> CellBox {
-        let corner = |index: u32| f64::from(index) * self.cell_units() - self.margin();
-        CellBox {
-            origin: Point::new(corner(column), corner(row)),
-            size: f64::from(self.lattice.box_units()),
-            flatness: self.flatness_units,
-        }
+        CellBox::of_cell([column, row], self.lattice, self.flatness_units)
     }
 
     /// Cells along an axis of `count` whose boxes hold more than an end of `[low, high]`.
@@ -80,11 +62,11 @@ fn clamp_index(x: f64, count: u32) -> u32 {
 /// Cuts `outline` to every cell.
 pub(crate) fn cut_to_cells(outline: &LoweredOutline, params: &CutParams) -> ShapeCurves {
     let [_, row_count] = params.size_cells;
-    let mut by_row: Vec<Vec<&Segment>> = vec![Vec::new(); row_count as usize];
+    let mut by_row: Vec<Vec<Segment>> = vec![Vec::new(); row_count as usize];
     for segment in &outline.segments {
         let rows = params.cells_along(segment.start.y, segment.end.y, row_count);
         for row in rows {
-            by_row[row as usize].push(segment);
+            by_row[row as usize].push(segment.into());
         }
     }
     let mut shape = ShapeCurves::default();
@@ -96,15 +78,15 @@ pub(crate) fn cut_to_cells(outline: &LoweredOutline, params: &CutParams) -> Shap
 }
 
 /// `segments` are those that reach into the row's boxes, by their smallest x.
-fn cut_row(segments: &[&Segment], row: u32, params: &CutParams, shape: &mut ShapeCurves) {
-    let low = segments.first().map_or(f64::INFINITY, |s| s.x_min());
+fn cut_row(segments: &[Segment], row: u32, params: &CutParams, shape: &mut ShapeCurves) {
+    let low = segments.first().map_or(f64::INFINITY, Segment::x_min);
     let high = segments
         .iter()
         .fold(f64::NEG_INFINITY, |x, s| x.max(s.x_max()));
-    let mut waiting = segments.iter().copied().peekable();
+    let mut waiting = segments.iter().peekable();
     let mut active: Vec<&Segment> = Vec::new();
     // What lies left of all boxes to come.
-    let mut passed = LeftEdge::default();
+    let mut passed = CellCurves::default();
     for column in params.cells_along(low, high, params.size_cells[0]) {
         let cell = params.box_of(column, row);
         let right = cell.origin.x + cell.size;
@@ -114,74 +96,31 @@ fn cut_row(segments: &[&Segment], row: u32, params: &CutParams, shape: &mut Shap
         active.retain(|segment| {
             let keep = segment.x_max() > cell.origin.x;
             if !keep {
-                passed.add(segment, clip(segment, &cell).left, cell.size);
+                passed.add(segment, &cell);
             }
             keep
         });
         let index = row * params.size_cells[0] + column;
-        let curves = cut_cell(&active, passed.clone(), &cell);
-        if !curves.segments.is_empty() || !curves.steps.is_empty() {
-            shape.edges.push((index, curves));
-        } else if curves.base != 0 {
-            shape.covered.push((index, curves.base));
+        let mut curves = passed.clone();
+        for segment in &active {
+            curves.add(segment, &cell);
+        }
+        match curves.winding() {
+            None => shape.edges.push((index, curves)),
+            Some(0) => {}
+            Some(winding) => shape.covered.push((index, winding)),
         }
     }
 }
 
-fn cut_cell(active: &[&Segment], mut left: LeftEdge, cell: &CellBox) -> CellCurves {
-    let mut segments = Vec::new();
-    for segment in active {
-        let clipped = clip(segment, cell);
-        left.add(segment, clipped.left, cell.size);
-        segments.extend(clipped.inside);
-    }
-    CellCurves {
-        base: left.base,
-        steps: left
-            .steps
-            .into_iter()
-            .map(|(height, change)| (f64::from(height), change))
-            .collect(),
-        segments,
-    }
-}
-
-/// The winding along a box's left edge: a step function of the height.
-#[derive(Clone, Debug, Default)]
-struct LeftEdge {
-    base: i32,
-    /// Height in units to change, none of them zero: where a contour goes on left of the box its
-    /// segments' ends cancel.
-    steps: BTreeMap<u16, i32>,
-}
-
-impl LeftEdge {
-    fn add(&mut self, segment: &Segment, heights: Option<[f64; 2]>, size: f64) {
-        if let Some([top, bottom]) = heights {
-            self.change(top, segment.direction, size);
-            self.change(bottom, -segment.direction, size);
+impl From<&lower::Segment> for Segment {
+    fn from(segment: &lower::Segment) -> Self {
+        let point = |p: kurbo::Point| Point::new(p.x, p.y);
+        Self {
+            start: point(segment.start),
+            control: segment.control.map(point),
+            end: point(segment.end),
+            direction: segment.direction,
         }
     }
-
-    fn change(&mut self, height: f64, change: i32, size: f64) {
-        if height <= 0.0 {
-            self.base += change;
-        } else if height < size {
-            let entry = self.steps.entry(to_u16(height));
-            let sum = *entry.and_modify(|old| *old += change).or_insert(change);
-            if sum == 0 {
-                self.steps.remove(&to_u16(height));
-            }
-        }
-    }
-}
-
-/// A coordinate of a box, which is an integer of 16 bits.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "boxes are at most 65535 units wide"
-)]
-pub(super) fn to_u16(x: f64) -> u16 {
-    x as u16
 }

@@ -92,6 +92,22 @@ pub(crate) fn meta(meta: &Meta, issues: &mut Issues) -> bool {
     sound
 }
 
+/// Sources make just the records that stand beside them.
+pub(super) fn sources(file: &VtexFile, issues: &mut Issues) {
+    let Some((sources, lattice)) = file.sources.as_ref().zip(file.meta.curve_lattice) else {
+        return;
+    };
+    let most = file.curves.len() as u64;
+    match sources.records_within(&file.meta.grid, lattice, most) {
+        Ok(words) if words == file.curves => {}
+        Ok(words) => {
+            let message = format_args!("{} words, not the {most} there are", words.len());
+            issues.add(issue::OUTLINE_RECORDS, Tag::OUTL, 0, message);
+        }
+        Err(error) => issues.add(issue::OUTLINES, Tag::OUTL, 0, format_args!("{error}")),
+    }
+}
+
 /// There is a curve lattice where there are curve records, and only there.
 pub(super) fn curve_lattice(file: &VtexFile, issues: &mut Issues) {
     if file.meta.curve_lattice.is_some() == file.curves.is_empty() {

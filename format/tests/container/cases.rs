@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use vtex_format::{
-    CurveLattice, Entry, EntryKind, Features, Grid, ISSUES, Image, Issue, LayerRecord, Limits,
-    Outline, ReadError, Tag, VtexFile, validate,
+    CurveLattice, CurveSources, Entry, EntryKind, Features, Grid, ISSUES, Image, Issue,
+    LayerRecord, Limits, Outline, ReadError, Tag, VtexFile, validate,
 };
 
 use crate::forge::{Forged, put_together, seal, take_apart};
@@ -27,6 +27,7 @@ const IMAG: usize = 7;
 const CELL: usize = 8;
 const ENTR: usize = 9;
 const CURV: usize = 10;
+const OUTL: usize = 10;
 const TILE: usize = 11;
 const MIPS: usize = 12;
 
@@ -236,6 +237,54 @@ const VALUE_CASES: &[ValueCase] = &[
     (6016, |f| f.images.swap(0, 1)),
 ];
 
+/// As the others, for the sample with outlines.
+const OUTLINED_CASES: &[FileCase] = &[
+    (3023, |s| {
+        cut(&mut s[META], 8);
+        patch(&mut s[META], 90, &[0]);
+    }),
+    (5021, |s| s[OUTL].refill(&[0; 35])),
+    (5021, |s| s[OUTL].refill(&[0; 20])),
+    // Fewer words than the records are, more segments than there are kinds.
+    (5021, |s| patch(&mut s[OUTL], 0, &[1, 0, 0, 0])),
+    (5021, |s| patch(&mut s[OUTL], 4, &[99])),
+    (5021, |s| patch(&mut s[OUTL], 8, &[99])),
+    (5021, |s| patch(&mut s[OUTL], 12, &[3])),
+    // No flatness is a NaN, and no first segment continues an outline.
+    (5021, |s| patch(&mut s[OUTL], 16, &[255; 4])),
+    (5021, |s| patch(&mut s[OUTL], 36, &[0])),
+    (5021, |s| {
+        let mut content = s[OUTL].content();
+        content.push(0);
+        s[OUTL].refill(&content);
+    }),
+    (5022, |s| patch(&mut s[OUTL], 20, &[0; 16])),
+    (5023, |s| s.insert(OUTL, Forged::raw(Tag::CURV, &[0; 12]))),
+    (2020, |s| patch(&mut s[OUTL], 0, &[0, 0, 0, 1])),
+    (2020, |s| patch(&mut s[OUTL], 4, &[0, 0, 0, 1])),
+];
+
+const OUTLINED_VALUES: &[ValueCase] = &[
+    (3023, |f| f.meta.curve_lattice = None),
+    (5021, |f| sources(f).records[0].cell = 4),
+    (5021, |f| sources(f).records[1].outlines.push(2)),
+    (5021, |f| sources(f).outlines[1].segments.clear()),
+    (5021, |f| {
+        sources(f).outlines[0].segments[1].control = Some([-1, 0]);
+    }),
+    (5021, |f| {
+        let record = f.sources.as_ref().unwrap().records[0].clone();
+        sources(f).records.push(record);
+    }),
+    (5022, |f| f.curves[0] ^= 1 << 31),
+    (5022, |f| drop(sources(f).records.pop())),
+    (5022, |f| sources(f).outlines[0].segments[1].control = None),
+];
+
+fn sources(file: &mut VtexFile) -> &mut CurveSources {
+    file.sources.as_mut().unwrap()
+}
+
 fn outline(file: &mut VtexFile) -> &mut Outline {
     file.meta.sampler.outline.as_mut().unwrap()
 }
@@ -269,13 +318,19 @@ fn codes(issues: &[Issue]) -> BTreeSet<u16> {
 
 #[test]
 fn broken_files_have_the_issue() {
-    let sections = take_apart(&sample::small().to_bytes().unwrap());
+    let cases: Vec<FileCase> = [TABLE_CASES, CONTENT_CASES].concat();
+    check_files(&sample::small(), &cases);
+    check_files(&sample::outlined(), OUTLINED_CASES);
+}
+
+fn check_files(file: &VtexFile, cases: &[FileCase]) {
+    let sections = take_apart(&file.to_bytes().unwrap());
     assert_eq!(
         put_together(&sections),
-        sample::small().to_bytes().unwrap(),
+        file.to_bytes().unwrap(),
         "the forger is right"
     );
-    for (index, (code, change)) in TABLE_CASES.iter().chain(CONTENT_CASES).enumerate() {
+    for (index, (code, change)) in cases.iter().enumerate() {
         let mut forged = sections.clone();
         change(&mut forged);
         let bytes = put_together(&forged);
@@ -292,8 +347,13 @@ fn broken_files_have_the_issue() {
 
 #[test]
 fn broken_values_have_the_issue_and_are_not_written() {
-    for (index, (code, change)) in VALUE_CASES.iter().enumerate() {
-        let mut file = sample::small();
+    check_values(&sample::small(), VALUE_CASES);
+    check_values(&sample::outlined(), OUTLINED_VALUES);
+}
+
+fn check_values(sound: &VtexFile, cases: &[ValueCase]) {
+    for (index, (code, change)) in cases.iter().enumerate() {
+        let mut file = sound.clone();
         change(&mut file);
         let found = file.check();
         assert!(
@@ -329,8 +389,9 @@ fn broken_headers_have_the_issue() {
 
 #[test]
 fn every_issue_has_a_case() {
-    let files = TABLE_CASES.iter().chain(CONTENT_CASES).map(|case| case.0);
-    let values = VALUE_CASES.iter().map(|case| case.0);
+    let files = [TABLE_CASES, CONTENT_CASES, OUTLINED_CASES].concat();
+    let files = files.iter().map(|case| case.0);
+    let values = VALUE_CASES.iter().chain(OUTLINED_VALUES).map(|case| case.0);
     let cases: BTreeSet<u16> = files.chain(values).chain(1001..=1007).collect();
     let all: BTreeSet<u16> = ISSUES.iter().map(|kind| kind.code).collect();
     assert_eq!(cases, all);

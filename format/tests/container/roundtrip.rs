@@ -23,6 +23,29 @@ fn a_file_with_every_section() {
 }
 
 #[test]
+fn a_file_with_outlines_instead_of_records() {
+    round_trip(&sample::outlined());
+    let bytes = sample::outlined().to_bytes().unwrap();
+    let directory = directory(&bytes, &Limits::default()).unwrap();
+    let has = |tag| directory.sections.iter().any(|section| section.tag == tag);
+    assert!(has(Tag::OUTL) && !has(Tag::CURV));
+}
+
+#[test]
+fn outlines_and_records_give_the_same_lookups() {
+    let outlined = sample::outlined();
+    let plain = VtexFile {
+        sources: None,
+        ..outlined.clone()
+    };
+    let read = |file: &VtexFile| VtexFile::parse(&file.to_bytes().unwrap(), &Limits::default());
+    assert_eq!(
+        read(&outlined).unwrap().curves,
+        read(&plain).unwrap().curves
+    );
+}
+
+#[test]
 fn arbitrary_files() {
     arbtest::arbtest(|u| {
         round_trip(&sample::arbitrary(u)?);

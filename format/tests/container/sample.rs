@@ -4,9 +4,10 @@ use arbtest::arbitrary::{Result, Unstructured};
 use bytemuck::Zeroable;
 use vtex_format::{
     AddressMode, COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CellWord, CurveHeader,
-    CurveLattice, Entry, EntryKind, Features, Grid, Image, LayerRecord, Meta, Outline, PaintRecord,
-    Provenance, SHADER_ABI, SamplerSettings, ShaderBlob, ShapeRecord, ShapeReport, SpecKey,
-    VtexFile, Warning, WarningCode,
+    CurveLattice, CurveSources, Entry, EntryKind, Features, Grid, Image, LayerRecord, Meta,
+    Outline, PaintRecord, Provenance, SHADER_ABI, SamplerSettings, ShaderBlob, ShapeRecord,
+    ShapeReport, SourceOutline, SourceRecord, SourceSegment, SpecKey, VtexFile, Warning,
+    WarningCode,
 };
 
 /// A 2 x 2 grid with every kind of cell and entry, two layers, two images and every section.
@@ -67,6 +68,7 @@ pub(crate) fn small() -> VtexFile {
             .collect(),
         // A record of 3 words, then one of 6.
         curves: [record(1, 0, 0), record(0, 2, 0)].concat(),
+        sources: None,
         tiles: tiles(3 * 9),
         images: vec![
             image([0.0, 0.0, 1.0, 1.0], [5, 3]),
@@ -75,6 +77,58 @@ pub(crate) fn small() -> VtexFile {
         provenance: Some(provenance(4)),
     };
     with_key(file)
+}
+
+/// As [`small`], but its records are cut from two outlines: a square with a rounded corner and a
+/// triangle that is even-odd.
+pub(crate) fn outlined() -> VtexFile {
+    let mut file = small();
+    let lattice = file.meta.curve_lattice.unwrap();
+    let side = lattice.units_per_cell.cast_signed();
+    let line = |from, to| SourceSegment {
+        from,
+        control: None,
+        to,
+    };
+    let (a, b) = (side / 4, side + side / 2);
+    let sources = CurveSources {
+        flatness_units: 0.5,
+        outlines: vec![
+            SourceOutline {
+                even_odd: false,
+                segments: vec![
+                    line([a, a], [b, a]),
+                    SourceSegment {
+                        from: [b, a],
+                        control: Some([b, b]),
+                        to: [a, b],
+                    },
+                    line([a, b], [a, a]),
+                ],
+            },
+            SourceOutline {
+                even_odd: true,
+                segments: vec![
+                    line([-a, -a], [2 * b, 7]),
+                    line([2 * b, 7], [7, 2 * b]),
+                    line([7, 2 * b], [-a, -a]),
+                ],
+            },
+        ],
+        records: vec![source_record(3, &[0]), source_record(3, &[1])],
+    };
+    file.curves = sources.records(&file.meta.grid, lattice).unwrap();
+    let header = CurveHeader::decode([file.curves[0], file.curves[1]]).unwrap();
+    file.entries[9] = header.record_words();
+    file.sources = Some(sources);
+    with_key(file)
+}
+
+pub(crate) fn source_record(cell: u32, outlines: &[u32]) -> SourceRecord {
+    SourceRecord {
+        cell,
+        outlines: outlines.to_vec(),
+    }
 }
 
 /// The file with the key its content asks for.
@@ -207,8 +261,12 @@ pub(crate) fn arbitrary(u: &mut Unstructured<'_>) -> Result<VtexFile> {
         .collect::<Result<Vec<_>>>()?;
     let layers = any_layers(u)?;
     let tile_count: u32 = layers.iter().map(|layer| layer.tile_count).sum();
-    let records = (0..u.int_in_range(0..=3)?).map(|_| any_record(u));
-    let records = records.collect::<Result<Vec<_>>>()?;
+    let (records, sources) = if u.arbitrary()? {
+        let (records, sources) = any_sources(u, &meta.grid)?;
+        (records, Some(sources))
+    } else {
+        (any_records(u)?, None)
+    };
     if !records.is_empty() {
         meta.curve_lattice = CurveLattice::new(0.25);
     }
@@ -236,6 +294,7 @@ pub(crate) fn arbitrary(u: &mut Unstructured<'_>) -> Result<VtexFile> {
         shapes: any_shapes(&layers),
         tiles: tiles((tile_count * texels_per_tile) as usize),
         curves: records.concat(),
+        sources,
         provenance: None,
         meta,
         paints,
@@ -277,6 +336,67 @@ fn any_shapes(layers: &[LayerRecord]) -> Vec<ShapeRecord> {
         (0..layer.shape_count).map(move |_| shape(COVERAGE_MSDF, index, 0))
     });
     members.collect()
+}
+
+fn any_records(u: &mut Unstructured<'_>) -> Result<Vec<Vec<u32>>> {
+    (0..u.int_in_range(0..=3)?).map(|_| any_record(u)).collect()
+}
+
+/// Arbitrary outlines of any extent, and the records that they make.
+fn any_sources(u: &mut Unstructured<'_>, grid: &Grid) -> Result<(Vec<Vec<u32>>, CurveSources)> {
+    let outlines = (0..u.int_in_range(1..=3)?).map(|_| any_outline(u));
+    let outlines = outlines.collect::<Result<Vec<_>>>()?;
+    let lattice = CurveLattice::new(0.25).unwrap();
+    let cells = grid.size_cells[0] * grid.size_cells[1];
+    let mut sources = CurveSources {
+        flatness_units: f32::from(u.int_in_range(0..=8_u8)?) / 4.0,
+        ..CurveSources::default()
+    };
+    let mut records = Vec::new();
+    for _ in 0..u.int_in_range(1..=4)? {
+        let mut record = source_record(u.int_in_range(0..=cells - 1)?, &[]);
+        for _ in 0..u.int_in_range(1..=2)? {
+            record.outlines.push(u.choose_index(outlines.len())? as u32);
+        }
+        let one = CurveSources {
+            outlines: outlines.clone(),
+            records: vec![record.clone()],
+            ..sources
+        };
+        records.push(one.records(grid, lattice).unwrap());
+        sources.records.push(record);
+    }
+    sources.outlines = outlines;
+    Ok((records, sources))
+}
+
+/// A chain of segments, now and then broken or closed; coordinates small or as large as they go.
+fn any_outline(u: &mut Unstructured<'_>) -> Result<SourceOutline> {
+    let bits = u.int_in_range(4..=31)?;
+    let point = |u: &mut Unstructured<'_>| -> Result<[i32; 2]> {
+        Ok(u.arbitrary::<[i32; 2]>()?.map(|x| x >> (32 - bits)))
+    };
+    let mut from = point(u)?;
+    let start = from;
+    let mut segments = Vec::new();
+    for _ in 0..u.int_in_range(1..=12)? {
+        if u.ratio(1, 8)? {
+            from = point(u)?;
+        }
+        let to = if u.ratio(1, 8)? { start } else { point(u)? };
+        let share = i64::from(u.int_in_range(0..=8_u8)?);
+        let between = [0, 1].map(|axis: usize| {
+            let (a, b) = (i64::from(from[axis]), i64::from(to[axis]));
+            (a + (b - a) * share / 8) as i32
+        });
+        let control = u.arbitrary::<bool>()?.then_some([between[0], to[1]]);
+        segments.push(SourceSegment { from, control, to });
+        from = to;
+    }
+    Ok(SourceOutline {
+        even_odd: u.arbitrary()?,
+        segments,
+    })
 }
 
 fn any_record(u: &mut Unstructured<'_>) -> Result<Vec<u32>> {

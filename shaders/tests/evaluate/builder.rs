@@ -52,6 +52,7 @@ pub(crate) fn row_of(columns: u32) -> VtexFile {
         cells: vec![0; columns as usize],
         entries: Vec::new(),
         curves: Vec::new(),
+        sources: None,
         tiles: Vec::new(),
         images: Vec::new(),
         provenance: None,

@@ -80,6 +80,7 @@ fn cells_file(size: [u32; 2], colors: &[[f32; 4]]) -> VtexFile {
             .collect(),
         entries: Vec::new(),
         curves: Vec::new(),
+        sources: None,
         tiles: Vec::new(),
         images: Vec::new(),
         provenance: None,

@@ -4,6 +4,7 @@ mod clock;
 mod device;
 mod lookups;
 mod machine;
+mod processes;
 mod queries;
 mod raster;
 mod rasterise;
@@ -11,6 +12,7 @@ mod rays;
 mod report;
 mod rivals;
 mod sfg22;
+mod sizes;
 mod stages;
 mod subject;
 mod table;
@@ -18,7 +20,7 @@ mod table;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use clap::{Parser, ValueEnum};
 use vtex_baker::Resources;
 
@@ -55,6 +57,11 @@ struct Args {
     /// Writes the tables as Markdown.
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
+    /// Does nothing but rasterise the one file to this PNG at 4096 pixels along its longer side, on one
+    /// thread, and print the milliseconds of parsing, rendering, encoding and writing: the rival of
+    /// `processes`.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["only", "markdown", "json"])]
+    png: Option<PathBuf>,
     /// Writes everything as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -71,10 +78,21 @@ enum Part {
     Gpu,
     /// Rays of the path tracer.
     Rays,
+    /// Bytes of each file beside those of its rivals.
+    Sizes,
+    /// Whole processes: `vtex bake`, which must have been built beside this program, and resvg to a
+    /// PNG. Only when asked for.
+    Processes,
 }
 
 fn main() -> Result<()> {
     let args = Args::parse();
+    if let Some(png) = &args.png {
+        let [svg] = args.files.as_slice() else {
+            bail!("--png takes one SVG file");
+        };
+        return processes::rasterise_to_png(svg, png);
+    }
     let wanted = |part| args.only.is_empty() || args.only.contains(&part);
     let effort = Effort {
         rounds: usize::from(args.rounds),
@@ -95,6 +113,12 @@ fn main() -> Result<()> {
         if cores > 1 {
             report.add(stages_table(&paths, &resources, cores, effort.rounds)?)?;
         }
+    }
+    if wanted(Part::Sizes) {
+        report.add_all(sizes::size_tables(&paths, &resources)?)?;
+    }
+    if args.only.contains(&Part::Processes) {
+        report.add_all(processes::process_tables(&paths, effort.rounds)?)?;
     }
     let subjects: Vec<Subject> = match wanted(Part::Cpu) || wanted(Part::Gpu) || wanted(Part::Rays)
     {

@@ -12,6 +12,13 @@ const ENCODE_STEPS: usize = 1 << 16;
 
 /// The canvas with `longer_side` texels along its longer side.
 pub(crate) fn rasterise(svg: &[u8], resources: &Resources, longer_side: u32) -> Result<Image> {
+    let tree = parse(svg, resources)?;
+    let pixmap = render(&tree, longer_side)?;
+    Ok(with_mips([pixmap.width(), pixmap.height()], &pixmap))
+}
+
+/// The SVG as resvg has it; what it refers to outside itself is not loaded.
+pub(crate) fn parse(svg: &[u8], resources: &Resources) -> Result<usvg::Tree> {
     let image_href_resolver = usvg::ImageHrefResolver {
         resolve_string: Box::new(|_, _| None),
         ..usvg::ImageHrefResolver::default()
@@ -21,17 +28,21 @@ pub(crate) fn rasterise(svg: &[u8], resources: &Resources, longer_side: u32) -> 
         image_href_resolver,
         ..usvg::Options::default()
     };
-    let tree = usvg::Tree::from_data(svg, &options)?;
+    Ok(usvg::Tree::from_data(svg, &options)?)
+}
+
+/// The picture with `longer_side` texels along its longer side.
+pub(crate) fn render(tree: &usvg::Tree, longer_side: u32) -> Result<Pixmap> {
     let canvas = tree.size();
     let scale = longer_side as f32 / canvas.width().max(canvas.height());
     let size = [canvas.width(), canvas.height()].map(|side| texels(side * scale));
     let mut pixmap = Pixmap::new(size[0], size[1]).context("no room for the raster")?;
     resvg::render(
-        &tree,
+        tree,
         Transform::from_scale(scale, scale),
         &mut pixmap.as_mut(),
     );
-    Ok(with_mips(size, &pixmap))
+    Ok(pixmap)
 }
 
 #[expect(

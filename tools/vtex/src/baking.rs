@@ -3,6 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
+use rayon::prelude::*;
 use vtex_baker::{BakeConfig, BakeError, Mode, Resources, Stage};
 use vtex_format::{AddressMode, VtexFile};
 
@@ -97,6 +98,7 @@ pub fn panicked(doing: &str, panic: &(dyn std::any::Any + Send)) -> Failure {
 /// # Errors
 /// When the baker made a file that breaks its own format.
 pub fn to_bytes(path: &Path, file: &VtexFile) -> Outcome<Vec<u8>> {
-    file.to_bytes()
+    let run = |count, job: &(dyn Fn(usize) + Sync)| (0..count).into_par_iter().for_each(job);
+    file.to_bytes_by(&run)
         .map_err(|error| Failure::runtime(format!("{}: {error}", path.display())))
 }

@@ -1,18 +1,79 @@
-//! One segment against one cell's box.
+//! One segment against one cell's box, in binary64 arithmetic that every machine does alike: sums,
+//! products, quotients, square roots, `round` (halves away from zero). `docs/format.md` section
+//! 2.14 gives the same in formulas.
 
-use kurbo::Point;
+use super::CellBox;
 
-use super::lower::{Segment, clamp_to_box};
+/// A place in units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// To the right.
+    pub x: f64,
+    /// Down.
+    pub y: f64,
+}
 
-/// A cell's box in units.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct CellBox {
-    /// Top left corner.
-    pub(super) origin: Point,
-    /// Side.
-    pub(super) size: f64,
-    /// A quadratic that stays within this of its chord becomes a line.
-    pub(super) flatness: f64,
+impl Point {
+    /// The place `(x, y)`.
+    pub fn new(x: f64, y: f64) -> Self {
+        Self { x, y }
+    }
+
+    pub(crate) fn of([x, y]: [i32; 2]) -> Self {
+        Self::new(f64::from(x), f64::from(y))
+    }
+
+    fn minus(self, other: Self) -> Self {
+        Self::new(self.x - other.x, self.y - other.y)
+    }
+
+    fn cross(self, other: Self) -> f64 {
+        self.x * other.y - self.y * other.x
+    }
+
+    fn clamped(self, a: Self, b: Self) -> Self {
+        Self::new(
+            self.x.max(a.x.min(b.x)).min(a.x.max(b.x)),
+            self.y.max(a.y.min(b.y)).min(a.y.max(b.y)),
+        )
+    }
+}
+
+/// A monotone segment from its upper to its lower end (equal heights: left to right).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Upper end, on the lattice.
+    pub start: Point,
+    /// Control point of a quadratic, inside the box of the ends.
+    pub control: Option<Point>,
+    /// Lower end, on the lattice.
+    pub end: Point,
+    /// 1 where the outline runs from start to end, -1 where it runs back.
+    pub direction: i32,
+}
+
+impl Segment {
+    /// Smallest x.
+    pub fn x_min(&self) -> f64 {
+        self.start.x.min(self.end.x)
+    }
+
+    /// Largest x.
+    pub fn x_max(&self) -> f64 {
+        self.start.x.max(self.end.x)
+    }
+
+    /// Blossom: the point at `s = t`, and the control point of the part between `s` and `t`.
+    fn blossom(&self, s: f64, t: f64) -> Point {
+        let axis = |a: f64, c: Option<f64>, b: f64| match c {
+            None => a + 0.5 * (s + t) * (b - a),
+            Some(c) => (1.0 - s) * (1.0 - t) * a + (s * (1.0 - t) + t * (1.0 - s)) * c + s * t * b,
+        };
+        Point::new(
+            axis(self.start.x, self.control.map(|c| c.x), self.end.x),
+            axis(self.start.y, self.control.map(|c| c.y), self.end.y),
+        )
+    }
 }
 
 /// What a segment is to a box.
@@ -31,12 +92,21 @@ struct Cut {
     point: Point,
 }
 
-/// Cuts `segment` to the box. Parts above, below and right of it vanish.
+/// Cuts `segment`, which reaches into the box's rows, to the box. Parts above, below and right of
+/// it vanish.
 pub(super) fn clip(segment: &Segment, cell: &CellBox) -> Clipped {
     let low = cell.origin;
     let high = Point::new(low.x + cell.size, low.y + cell.size);
-    if segment.end.y < low.y || segment.start.y > high.y {
+    // What follows says the same of segments wholly beside the box, at the price of their cuts.
+    if segment.x_min() >= high.x {
         return Clipped::default();
+    }
+    if segment.x_max() <= low.x {
+        let [top, bottom] = [segment.start.y.max(low.y), segment.end.y.min(high.y)];
+        return Clipped {
+            inside: None,
+            left: (top < bottom).then_some([top - low.y, bottom - low.y]),
+        };
     }
     let mut first = Cut {
         t: 0.0,
@@ -102,7 +172,7 @@ fn cut_at_height(segment: &Segment, y: f64) -> Cut {
         y,
     );
     let x = segment.blossom(t, t).x.round();
-    let x = x.clamp(segment.x_min(), segment.x_max());
+    let x = x.max(segment.x_min()).min(segment.x_max());
     Cut {
         t,
         point: Point::new(x, y),
@@ -117,17 +187,18 @@ fn cut_at_x(segment: &Segment, x: f64, first: Cut, last: Cut) -> Cut {
         segment.end.x,
         x,
     );
-    let t = t.clamp(first.t, last.t);
+    let t = t.max(first.t).min(last.t);
     let y = segment.blossom(t, t).y.round();
-    let y = y.clamp(first.point.y, last.point.y);
+    let y = y.max(first.point.y).min(last.point.y);
     Cut {
         t,
         point: Point::new(x, y),
     }
 }
 
-/// Where a monotone coordinate takes the value `v`, which lies between its ends.
-pub(super) fn parameter(p0: f64, control: Option<f64>, p2: f64, v: f64) -> f64 {
+/// Where a monotone coordinate with the values `p0`, `control`, `p2` takes the value `v`, which lies
+/// between its ends; in \[0, 1\].
+pub fn parameter(p0: f64, control: Option<f64>, p2: f64, v: f64) -> f64 {
     let t = match control {
         None => (v - p0) / (p2 - p0),
         Some(p1) => {
@@ -143,16 +214,18 @@ pub(super) fn parameter(p0: f64, control: Option<f64>, p2: f64, v: f64) -> f64 {
 
 /// The part between two cuts, relative to the box; `None` for a point.
 fn between(segment: &Segment, first: Cut, last: Cut, cell: &CellBox) -> Option<Segment> {
-    let local = |p: Point| (p - cell.origin).to_point();
+    let local = |p: Point| p.minus(cell.origin);
     let (start, end) = (local(first.point), local(last.point));
     if start == end {
         return None;
     }
     let control = segment.control.and_then(|_| {
-        let control = local(segment.blossom(first.t, last.t)).round();
-        let control = clamp_to_box(control, start, end);
+        let control = local(segment.blossom(first.t, last.t));
+        let control = Point::new(control.x.round(), control.y.round()).clamped(start, end);
         // The curve leaves its chord by half of what its control point does.
-        let height = (end - start).cross(control - start).abs() / (end - start).hypot();
+        let chord = end.minus(start);
+        let length = (chord.x * chord.x + chord.y * chord.y).sqrt();
+        let height = chord.cross(control.minus(start)).abs() / length;
         (0.5 * height > cell.flatness).then_some(control)
     });
     Some(Segment {
