@@ -206,7 +206,10 @@ const VALUE_CASES: &[ValueCase] = &[
     (5004, |f| f.cells[2] = 2 << 30 | 1),
     (5004, |f| f.cells[2] = 2 << 30 | 10),
     (5005, |f| f.entries[8] &= !(1 << 27)),
-    (5006, |f| f.curves[2] = 1 << 31),
+    (5006, |f| {
+        f.entries[9] = 0;
+        f.curves[2] = 1 << 31;
+    }),
     (5007, |f| {
         f.curves[2] = 0x7fff << 16;
         f.entries = [2 << 28 | 1 << 27 | 1, 0].repeat(300);
