@@ -139,11 +139,15 @@ fn slots(features: u32) -> LinkContext {
         true => "vtex/composite_ramp",
         false => "vtex/composite_front",
     };
-    let cells = match (has(Features::LISTS), ramps) {
-        (true, true) => "vtex/cells_list",
-        (true, false) => "vtex/cells_point",
-        (false, _) => "vtex/cells_solid",
+    let one_kind = has(Features::MSDF) != has(Features::CURVES);
+    let one_walk = !composites && !has(Features::OUTLINE) && one_kind;
+    let cells = match (has(Features::LISTS), ramps, one_walk) {
+        (true, true, true) => "vtex/cells_ramp",
+        (true, true, false) => "vtex/cells_list",
+        (true, false, _) => "vtex/cells_point",
+        (false, _, _) => "vtex/cells_solid",
     };
+    let reach = pick(Features::CURVES, "vtex/reach_curves", "vtex/reach_msdf");
     let inside = match (has(Features::MSDF), has(Features::CURVES)) {
         (true, true) => "vtex/inside_any",
         (false, true) => "vtex/inside_curves",
@@ -181,6 +185,7 @@ fn slots(features: u32) -> LinkContext {
             pick(Features::MIPS, "vtex/minify_mips", "vtex/minify_none"),
         ),
         ("vtex/cells", cells),
+        ("vtex/reach", reach),
         ("vtex/inside", inside),
         ("vtex/hit", hit),
         (

@@ -79,8 +79,10 @@ fn code_of_absent_features_is_not_in_the_text() {
         let edges = msdf || curves;
         // [SFG22] eq. 2 draws by distance whatever the filter.
         let ramps = edges && (has(Features::RAMPS) || has(Features::OUTLINE));
+        let outline = edges && has(Features::OUTLINE);
+        let one_walk = !outline && (!translucent || mask) && msdf != curves;
         for (symbol, wanted) in [
-            ("vtex_composite", ramps),
+            ("vtex_composite", ramps && !one_walk),
             ("vtex_hit", lists && !ramps),
             ("vtex_inside", lists && !ramps),
             ("vtex_msdf_", msdf),
@@ -88,7 +90,8 @@ fn code_of_absent_features_is_not_in_the_text() {
             ("vtex_curve_", curves),
             ("vtex_segment_winding", curves),
             ("vtex_segment_distance", curves && ramps),
-            ("fn vtex_edge(", ramps),
+            ("fn vtex_edge(", ramps && !one_walk),
+            ("vtex_reach_", ramps && one_walk),
             ("vtex_ramp_", ramps),
             ("vtex_image_", images || has(Features::MIPS)),
             ("vtex_texel", images || has(Features::MIPS)),
