@@ -9,8 +9,10 @@ use vtex_shaders::layout::BatchQuery;
 const WINDOW_PX: u32 = 512;
 /// Screen order is by square tiles of this many pixels, as path tracers and rasterisers work.
 const TILE_PX: u32 = 8;
-/// One tile in so many, along both axes, is part of a frame of [`Screen::tour`].
-const TOUR_TILES: u32 = 8;
+/// Tiles along a block: 64 pixels.
+const BLOCK_TILES: u32 = 8;
+/// One block in so many, along both axes, is part of a frame of [`Screen::tour`].
+const TOUR_STRIDE: u32 = 8;
 /// Magnification of the close windows: a pixel is a texel of a 4096^2 raster.
 const CLOSE_ZOOM: f32 = 8.0;
 /// 176 of 512 pixels: level 1.54 of a 512-texel mip chain, so that two levels count.
@@ -38,7 +40,7 @@ pub(crate) struct QueryRecord {
     size_px: [u32; 2],
     /// 1: anywhere in the unit square instead of in screen order.
     scattered: u32,
-    /// From tile to tile, in tiles: 1, or [`TOUR_TILES`] for tiles from all over the canvas.
+    /// From block to block of [`BLOCK_TILES`] tiles, in blocks: 1 where they follow each other.
     stride: u32,
 }
 
@@ -76,10 +78,13 @@ impl QuerySet {
         let lane = index % (TILE_PX * TILE_PX);
         let [columns, rows] = size_px.map(|side| side / TILE_PX);
         let frame = tile / (columns * rows);
-        // Each frame takes other tiles of those that the stride leaves out.
+        // Each frame takes other blocks of those that the stride leaves out.
         let shift = [frame * 3 % stride, frame * 5 % stride];
         let place = [tile % columns, tile / columns % rows];
-        let corner = [0, 1].map(|axis| (place[axis] * stride + shift[axis]) * TILE_PX);
+        let corner = [0, 1].map(|axis| {
+            let block = place[axis] / BLOCK_TILES * stride + shift[axis];
+            (block * BLOCK_TILES + place[axis] % BLOCK_TILES) * TILE_PX
+        });
         let at = [corner[0] + lane % TILE_PX, corner[1] + lane / TILE_PX];
         let place = |axis: usize| origin[axis] + (at[axis] as f32 + jitter[axis]) * pixel[axis];
         let uv = if scattered == 1 {
@@ -133,13 +138,16 @@ impl Screen {
         self.window("8x", CLOSE_ZOOM, origin_uv, count)
     }
 
-    /// Tiles at 8x from everywhere on the canvas: the mean over all that a close viewer passes.
+    /// Blocks of 64 x 64 pixels at 8x from everywhere on the canvas: the mean over all that a close
+    /// viewer passes.
     pub(crate) fn tour(self, count: usize) -> QuerySet {
         let mut set = self.window("8x, all", CLOSE_ZOOM, [0.0, 0.0], count);
         let zoomed = self.size_px.map(|side| side * CLOSE_ZOOM);
-        let tiles = zoomed.map(|side| whole_tiles(side / (TILE_PX * TOUR_TILES) as f32, 1));
+        let stride_px = TILE_PX * BLOCK_TILES * TOUR_STRIDE;
+        let blocks = zoomed.map(|side| whole_tiles((side / stride_px as f32).floor(), 1));
+        let tiles = blocks.map(|count| count * BLOCK_TILES);
         set.record.size_px = tiles.map(|count| count * TILE_PX);
-        set.record.stride = TOUR_TILES;
+        set.record.stride = TOUR_STRIDE;
         let pixels = (tiles[0] * tiles[1] * TILE_PX * TILE_PX) as usize;
         set.frames = u32::try_from(count / pixels).unwrap_or(u32::MAX).max(1);
         set

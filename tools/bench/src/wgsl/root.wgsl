@@ -37,7 +37,8 @@ fn bench_main(
     let jitter = vec2f(bench_unit(seed), bench_unit(bench_scramble(seed ^ 0x9e3779b9u)));
     let q = bench_queries;
     let shift = (tile.z * vec2u(3u, 5u)) % q.stride;
-    let pixel = (tile.xy * q.stride + shift) * 8u + vec2u(lane % 8u, lane / 8u);
+    let block = tile.xy / 8u * q.stride + shift;
+    let pixel = (block * 8u + tile.xy % 8u) * 8u + vec2u(lane % 8u, lane / 8u);
     let on_screen = q.origin + (vec2f(pixel) + jitter) * q.pixel;
     let uv = select(on_screen, jitter, q.scattered == 1u);
     bench_results[index] = bench_sample(uv, vec4f(q.pixel.x, 0.0, 0.0, q.pixel.y));
