@@ -40,7 +40,7 @@ pub(crate) fn refine(file: &VtexFile, distances: bool) -> Refined {
     };
     let whole = whole_cell(file, distances);
     for (index, &word) in file.cells.iter().enumerate() {
-        let at = [index % columns << depth, index / columns << depth];
+        let at = [(index % columns) << depth, (index / columns) << depth];
         match CellWord::decode(word) {
             Some(CellWord::List { offset_words }) => {
                 // Lists of one cell are alike, those of two hardly ever.

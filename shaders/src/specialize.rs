@@ -119,6 +119,59 @@ fn slots(features: u32) -> LinkContext {
     let pick = |feature: u32, with: &'static str, without: &'static str| {
         if has(feature) { with } else { without }
     };
+    let fixed = [
+        (
+            "vtex/matrix",
+            pick(
+                Features::TEXTURE_MATRIX,
+                "vtex/matrix_affine",
+                "vtex/matrix_identity",
+            ),
+        ),
+        (
+            "vtex/value",
+            pick(Features::MASK, "vtex/value_mask", "vtex/value_color"),
+        ),
+        (
+            "vtex/paint",
+            pick(Features::MASK, "vtex/paint_alpha", "vtex/paint_color"),
+        ),
+        (
+            "vtex/texel",
+            pick(Features::MASK, "vtex/texel_alpha", "vtex/texel_color"),
+        ),
+        (
+            "vtex/minify",
+            pick(Features::MIPS, "vtex/minify_mips", "vtex/minify_none"),
+        ),
+        (
+            "vtex/source",
+            pick(Features::IMAGES, "vtex/source_image", "vtex/source_solid"),
+        ),
+        (
+            "vtex/encoded",
+            pick(Features::IMAGES, "vtex/encoded_image", "vtex/encoded_solid"),
+        ),
+        (
+            "vtex/entry",
+            pick(Features::OUTLINE, "vtex/entry_outline", "vtex/entry_shape"),
+        ),
+        (
+            "vtex/over",
+            pick(Features::OUTLINE, "vtex/over_outline", "vtex/over_shape"),
+        ),
+    ];
+    fixed
+        .into_iter()
+        .chain(cell_slots(features))
+        .fold(LinkContext::default(), |context, (slot, module)| {
+            context.fill(slot, module)
+        })
+}
+
+/// The modules that answer from cells.
+fn cell_slots(features: u32) -> [(&'static str, &'static str); 7] {
+    let has = |feature: u32| features & feature != 0;
     // A mask composites alpha alone, which any order of entries gives.
     let composites = has(Features::TRANSLUCENT) && !has(Features::MASK);
     let edges = has(Features::MSDF) || has(Features::CURVES);
@@ -147,7 +200,10 @@ fn slots(features: u32) -> LinkContext {
         (true, false, _) => "vtex/cells_point",
         (false, _, _) => "vtex/cells_solid",
     };
-    let reach = pick(Features::CURVES, "vtex/reach_curves", "vtex/reach_msdf");
+    let reach = match has(Features::CURVES) {
+        true => "vtex/reach_curves",
+        false => "vtex/reach_msdf",
+    };
     let inside = match (has(Features::MSDF), has(Features::CURVES)) {
         (true, true) => "vtex/inside_any",
         (false, true) => "vtex/inside_curves",
@@ -160,58 +216,14 @@ fn slots(features: u32) -> LinkContext {
         (true, true) => "vtex/hit_alpha",
     };
     [
-        (
-            "vtex/matrix",
-            pick(
-                Features::TEXTURE_MATRIX,
-                "vtex/matrix_affine",
-                "vtex/matrix_identity",
-            ),
-        ),
-        (
-            "vtex/value",
-            pick(Features::MASK, "vtex/value_mask", "vtex/value_color"),
-        ),
-        (
-            "vtex/paint",
-            pick(Features::MASK, "vtex/paint_alpha", "vtex/paint_color"),
-        ),
-        (
-            "vtex/texel",
-            pick(Features::MASK, "vtex/texel_alpha", "vtex/texel_color"),
-        ),
-        (
-            "vtex/minify",
-            pick(Features::MIPS, "vtex/minify_mips", "vtex/minify_none"),
-        ),
         ("vtex/cells", cells),
         ("vtex/reach", reach),
         ("vtex/inside", inside),
         ("vtex/hit", hit),
-        (
-            "vtex/source",
-            pick(Features::IMAGES, "vtex/source_image", "vtex/source_solid"),
-        ),
-        (
-            "vtex/encoded",
-            pick(Features::IMAGES, "vtex/encoded_image", "vtex/encoded_solid"),
-        ),
-        (
-            "vtex/entry",
-            pick(Features::OUTLINE, "vtex/entry_outline", "vtex/entry_shape"),
-        ),
-        (
-            "vtex/over",
-            pick(Features::OUTLINE, "vtex/over_outline", "vtex/over_shape"),
-        ),
         ("vtex/coverage", coverage),
         ("vtex/edge", edge),
         ("vtex/composite", composite),
     ]
-    .into_iter()
-    .fold(LinkContext::default(), |context, (slot, module)| {
-        context.fill(slot, module)
-    })
 }
 
 fn linked(root: &str, context: &LinkContext) -> String {

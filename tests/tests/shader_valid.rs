@@ -116,7 +116,6 @@ fn check_loops(features: u32) {
         !text.contains("while ") && !text.contains("loop {"),
         "no other loops"
     );
-    assert!(text.contains(&format!(
-        "VTEX_KEY_MAX_ENTRIES: u32 = {MAX_ENTRIES_PER_CELL}u;"
-    )));
+    let most = format!("VTEX_KEY_MAX_ENTRIES: u32 = {MAX_ENTRIES_PER_CELL}u;");
+    assert!(text.contains(&most), "keys are cut to the format's limit");
 }

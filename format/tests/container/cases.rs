@@ -213,7 +213,7 @@ const VALUE_CASES: &[ValueCase] = &[
     (5007, |f| {
         f.curves[2] = 0x7fff << 16;
         f.entries = [2 << 28 | 1 << 27 | 1, 0].repeat(300);
-        f.cells = (0..300).map(|list| 2 << 30 | 2 * list).collect();
+        f.cells = (0..300).map(|list| (2 << 30) | (2 * list)).collect();
     }),
     (5010, |f| f.entries.truncate(7)),
     (5011, |f| f.entries[0] |= 1 << 19),

@@ -200,7 +200,9 @@ fn tables(title: &str, baseline: &str, rows: &[Row<'_>]) -> Vec<Table> {
 /// What a query set of [`Subject::query_sets`] is.
 fn meaning(name: &str) -> &'static str {
     match name {
-        "8x, all" => "Blocks of 64 x 64 pixels at 8x from everywhere on the canvas, in screen order",
+        "8x, all" => {
+            "Blocks of 64 x 64 pixels at 8x from everywhere on the canvas, in screen order"
+        }
         "8x" => "The 512 x 512 pixels of the canvas' busiest part at 8x, in screen order",
         "1x" => "The whole canvas in 512 pixels, in screen order (answered by mips)",
         _ => "Random points of the canvas with the footprint of a pixel at 8x",
