@@ -79,6 +79,7 @@ pub(crate) fn assemble(
     let sources = curve_lattice.and_then(|curve_lattice| {
         let flatness = flatness_units(&lattice, curve_lattice, config.max_zoom);
         sources(&covers, &lists.sources, flatness)
+            .filter(|sources| sources.is_cuttable(&lattice.grid, curve_lattice))
     });
     let meta = records::meta(&drawing, config, &lattice, curve_lattice, &scales, outline);
     let shapes = records::shape_records(&input, &lattice);

@@ -8,8 +8,9 @@ use zstd::zstd_safe;
 use crate::issue::{self, IssueKind};
 use crate::{Codec, SectionInfo};
 
-/// Levels by raw length: small sections as tight as zstd packs without its costly last levels,
-/// larger ones where the next level costs more time than it saves bytes. CPU time on one core:
+/// Levels by the most raw bytes that take them: small sections as tight as zstd packs without its
+/// costly last levels, larger ones where the next level costs more time than it saves bytes. CPU
+/// time on one core:
 ///
 /// | the Tiger's | level 12 | 15 | 17 | 19 |
 /// |---|---|---|---|---|
@@ -17,24 +18,23 @@ use crate::{Codec, SectionInfo};
 /// | mip 1, 237 KB | 29.5 KB, 8 ms | 28.3 KB, 19 ms | 28.3 KB, 37 ms | 28.2 KB, 47 ms |
 /// | outlines, 137 KB | 98.3 KB, 6 ms | 93.3 KB, 17 ms | 92.6 KB, 18 ms | 92.6 KB, 27 ms |
 /// | tiles, 1.6 MB | 404 KB, 170 ms | 398 KB, 660 ms | | 364 KB, 2.2 s |
-const SMALL_LEVEL: i32 = 19;
-const MIDDLE_LEVEL: i32 = 17;
-const LARGE_LEVEL: i32 = 12;
-/// Bytes from which a section is no longer small.
-const MIDDLE_BYTES: usize = 32 << 10;
-/// Bytes beyond which a section is large: a mip 0 of 512 x 512 texels is not.
-const LARGE_BYTES: usize = 1 << 20;
+///
+/// 17 pays for a whole mip 0, of which one of 512 x 512 texels is the largest that takes it, and not
+/// for what is smaller.
+const LEVELS: [(usize, i32); 4] = [
+    (32 << 10, 19),
+    ((256 << 10) - 1, 15),
+    (1 << 20, 17),
+    (usize::MAX, 12),
+];
 
 /// Raw bytes as stored: a zstd frame, or themselves when that is no shorter.
 ///
 /// # Errors
 /// When zstd has no memory.
 pub(crate) fn compress(raw: &[u8]) -> std::io::Result<(Codec, Vec<u8>)> {
-    let level = match raw.len() {
-        0..MIDDLE_BYTES => SMALL_LEVEL,
-        MIDDLE_BYTES..=LARGE_BYTES => MIDDLE_LEVEL,
-        _ => LARGE_LEVEL,
-    };
+    let fits = |(most, level): (usize, i32)| (raw.len() <= most).then_some(level);
+    let level = LEVELS.into_iter().find_map(fits).unwrap_or_default();
     let frame = zstd::bulk::compress(raw, level)?;
     Ok(if frame.len() < raw.len() {
         (Codec::Zstd, frame)

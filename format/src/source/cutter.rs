@@ -1,5 +1,7 @@
 //! From outlines to what each record holds.
 
+use std::collections::BTreeMap;
+
 use super::{CurveSources, MAX_WORK, SourceError, SourceOutline, SourceRecord, SourceSegment};
 use crate::CurveLattice;
 use crate::cut::{CellBox, CellCurves, Point, Segment};
@@ -62,22 +64,49 @@ impl<'a> Cutter<'a> {
         let segments = known.as_ref().map_or(&[][..], |(_, segments)| segments);
         work += CLIP_WORK * segments.len() as u64;
         self.work_left = self.work_left.checked_sub(work).ok_or(SourceError::Work)?;
-        for segment in segments {
+        let right = cell.origin.x + cell.size;
+        for segment in segments.iter().take_while(|s| s.x_min() < right) {
             curves.add(segment, cell);
         }
         Ok(())
     }
 }
 
-/// The segments of which more than an end lies in the box's rows, by their smallest x.
-fn row_segments(outline: &SourceOutline, cell: &CellBox) -> Vec<Segment> {
+/// What cutting takes when records come row by row, in the measure of [`MAX_WORK`].
+pub(super) fn work(sources: &CurveSources, columns: u32, lattice: CurveLattice) -> u64 {
+    let mut cells: BTreeMap<(u32, u32), u64> = BTreeMap::new();
+    for record in &sources.records {
+        let row = record.cell / columns.max(1);
+        for &outline in &record.outlines {
+            *cells.entry((outline, row)).or_default() += 1;
+        }
+    }
+    let work = cells.into_iter().map(|((outline, row), cells)| {
+        let Some(outline) = sources.outlines.get(outline as usize) else {
+            return 0;
+        };
+        let cell = CellBox::of_cell([0, row], lattice, 0.0);
+        let reaching = reaching(outline, &cell).count() as u64;
+        outline.segments.len() as u64 + CLIP_WORK * cells * reaching
+    });
+    work.fold(0, u64::saturating_add)
+}
+
+/// The segments of which more than an end lies in the box's rows.
+fn reaching<'a>(
+    outline: &'a SourceOutline,
+    cell: &CellBox,
+) -> impl Iterator<Item = &'a SourceSegment> {
     let (top, bottom) = (cell.origin.y, cell.origin.y + cell.size);
-    let reaches = |segment: &&SourceSegment| {
+    outline.segments.iter().filter(move |segment| {
         let [a, b] = [segment.from[1], segment.to[1]].map(f64::from);
         a.max(b) > top && a.min(b) < bottom
-    };
-    let segments = outline.segments.iter().filter(reaches);
-    let mut row: Vec<Segment> = segments.map(downward).collect();
+    })
+}
+
+/// Those segments by their smallest x.
+fn row_segments(outline: &SourceOutline, cell: &CellBox) -> Vec<Segment> {
+    let mut row: Vec<Segment> = reaching(outline, cell).map(downward).collect();
     row.sort_by(|a, b| a.x_min().total_cmp(&b.x_min()));
     row
 }
@@ -125,6 +154,11 @@ mod tests {
         // Two of the three segments reach into row 1: 3 to find them, 32 to clip them.
         let mut cutter = Cutter::new(&sources, 2, lattice);
         cutter.work_left = 3 + 32 + 32;
+        let both = CurveSources {
+            records: vec![record(1), record(1)],
+            ..sources.clone()
+        };
+        assert_eq!(work(&both, 2, lattice), cutter.work_left);
         assert!(cutter.record(&record(1)).is_ok());
         assert!(cutter.record(&record(1)).is_ok(), "the row is known");
         assert_eq!(cutter.record(&record(2)), Err(SourceError::Work));

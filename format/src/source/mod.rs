@@ -76,6 +76,11 @@ impl CurveSources {
         self.records_within(grid, lattice, u64::MAX)
     }
 
+    /// Whether readers take the time to cut them; where not, a file must hold the records.
+    pub fn is_cuttable(&self, grid: &Grid, lattice: CurveLattice) -> bool {
+        cutter::work(self, grid.size_cells[0], lattice) <= MAX_WORK
+    }
+
     /// As [`CurveSources::records`], giving up beyond `max_words`.
     pub(crate) fn records_within(
         &self,

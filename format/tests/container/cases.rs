@@ -3,21 +3,22 @@
 use std::collections::BTreeSet;
 
 use vtex_format::{
-    CurveLattice, CurveSources, Entry, EntryKind, Features, Grid, ISSUES, Image, Issue,
-    LayerRecord, Limits, Outline, ReadError, Tag, VtexFile, validate,
+    CurveLattice, Entry, EntryKind, Features, Grid, ISSUES, Image, Issue, LayerRecord, Limits,
+    Outline, ReadError, Tag, VtexFile, validate,
 };
 
 use crate::forge::{Forged, put_together, seal, take_apart};
+use crate::outlined::{OUTLINED_CASES, OUTLINED_VALUES};
 use crate::sample;
 
 /// A change to the sections of the sample, and the code of the issue it makes.
-type FileCase = (u16, fn(&mut Vec<Forged>));
+pub(crate) type FileCase = (u16, fn(&mut Vec<Forged>));
 /// A change to the sample's bytes.
 type ByteCase = (u16, fn(&mut Vec<u8>));
 /// A change to the sample itself.
-type ValueCase = (u16, fn(&mut VtexFile));
+pub(crate) type ValueCase = (u16, fn(&mut VtexFile));
 
-const META: usize = 0;
+pub(crate) const META: usize = 0;
 const SPEC: usize = 1;
 const SHDR: usize = 2;
 const PROV: usize = 3;
@@ -27,17 +28,16 @@ const IMAG: usize = 7;
 const CELL: usize = 8;
 const ENTR: usize = 9;
 const CURV: usize = 10;
-const OUTL: usize = 10;
 const TILE: usize = 11;
 const MIPS: usize = 12;
 
-fn patch(section: &mut Forged, offset: usize, bytes: &[u8]) {
+pub(crate) fn patch(section: &mut Forged, offset: usize, bytes: &[u8]) {
     let mut content = section.content();
     content[offset..offset + bytes.len()].copy_from_slice(bytes);
     section.refill(&content);
 }
 
-fn cut(section: &mut Forged, bytes: usize) {
+pub(crate) fn cut(section: &mut Forged, bytes: usize) {
     let content = section.content();
     section.refill(&content[..content.len() - bytes]);
 }
@@ -239,54 +239,6 @@ const VALUE_CASES: &[ValueCase] = &[
     (6015, |f| f.images[1].mips[0].truncate(7)),
     (6016, |f| f.images.swap(0, 1)),
 ];
-
-/// As the others, for the sample with outlines.
-const OUTLINED_CASES: &[FileCase] = &[
-    (3023, |s| {
-        cut(&mut s[META], 8);
-        patch(&mut s[META], 90, &[0]);
-    }),
-    (5021, |s| s[OUTL].refill(&[0; 35])),
-    (5021, |s| s[OUTL].refill(&[0; 20])),
-    // Fewer words than the records are, more segments than there are kinds.
-    (5021, |s| patch(&mut s[OUTL], 0, &[1, 0, 0, 0])),
-    (5021, |s| patch(&mut s[OUTL], 4, &[99])),
-    (5021, |s| patch(&mut s[OUTL], 8, &[99])),
-    (5021, |s| patch(&mut s[OUTL], 12, &[3])),
-    // No flatness is a NaN, and no first segment continues an outline.
-    (5021, |s| patch(&mut s[OUTL], 16, &[255; 4])),
-    (5021, |s| patch(&mut s[OUTL], 36, &[0])),
-    (5021, |s| {
-        let mut content = s[OUTL].content();
-        content.push(0);
-        s[OUTL].refill(&content);
-    }),
-    (5022, |s| patch(&mut s[OUTL], 20, &[0; 16])),
-    (5023, |s| s.insert(OUTL, Forged::raw(Tag::CURV, &[0; 12]))),
-    (2020, |s| patch(&mut s[OUTL], 0, &[0, 0, 0, 1])),
-    (2020, |s| patch(&mut s[OUTL], 4, &[0, 0, 0, 1])),
-];
-
-const OUTLINED_VALUES: &[ValueCase] = &[
-    (3023, |f| f.meta.curve_lattice = None),
-    (5021, |f| sources(f).records[0].cell = 4),
-    (5021, |f| sources(f).records[1].outlines.push(2)),
-    (5021, |f| sources(f).outlines[1].segments.clear()),
-    (5021, |f| {
-        sources(f).outlines[0].segments[1].control = Some([-1, 0]);
-    }),
-    (5021, |f| {
-        let record = f.sources.as_ref().unwrap().records[0].clone();
-        sources(f).records.push(record);
-    }),
-    (5022, |f| f.curves[0] ^= 1 << 31),
-    (5022, |f| drop(sources(f).records.pop())),
-    (5022, |f| sources(f).outlines[0].segments[1].control = None),
-];
-
-fn sources(file: &mut VtexFile) -> &mut CurveSources {
-    file.sources.as_mut().unwrap()
-}
 
 fn outline(file: &mut VtexFile) -> &mut Outline {
     file.meta.sampler.outline.as_mut().unwrap()

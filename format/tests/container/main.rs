@@ -7,5 +7,6 @@
 mod cases;
 mod damage;
 mod forge;
+mod outlined;
 mod roundtrip;
 mod sample;

@@ -17,17 +17,19 @@ pub(crate) fn rasterise(svg: &[u8], resources: &Resources, longer_side: u32) -> 
     Ok(with_mips([pixmap.width(), pixmap.height()], &pixmap))
 }
 
-/// The SVG as resvg has it; what it refers to outside itself is not loaded.
+/// The SVG as resvg has it, with the faces a bake chooses; what it refers to outside itself is not
+/// loaded.
 pub(crate) fn parse(svg: &[u8], resources: &Resources) -> Result<usvg::Tree> {
     let image_href_resolver = usvg::ImageHrefResolver {
         resolve_string: Box::new(|_, _| None),
         ..usvg::ImageHrefResolver::default()
     };
-    let options = usvg::Options {
+    let mut options = usvg::Options {
         fontdb: resources.fonts.clone(),
         image_href_resolver,
         ..usvg::Options::default()
     };
+    options.font_resolver.select_font = vtex_baker::font_selector();
     Ok(usvg::Tree::from_data(svg, &options)?)
 }
 
