@@ -44,12 +44,12 @@ impl CellBox {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CellCurves {
     /// Winding at the box's top left corner.
-    base: i32,
+    pub base: i32,
     /// Heights on the box's left edge to the change of the winding there, none of them zero: where
     /// a contour goes on left of the box its segments' ends cancel.
-    steps: BTreeMap<u16, i32>,
+    pub steps: BTreeMap<u16, i32>,
     /// What of the outlines lies in the box.
-    segments: Vec<Segment>,
+    pub segments: Vec<Segment>,
 }
 
 impl CellCurves {
