@@ -2,7 +2,7 @@
 
 use kurbo::Affine;
 use rayon::prelude::*;
-use vtex_format::CurveLattice;
+use vtex_format::{CurveLattice, Finding};
 
 use crate::{
     classify::{ShapeCells, classify},
@@ -15,7 +15,7 @@ use crate::{
     drawing::{Drawing, to_f32},
     geometry::floor_index,
     grid::Lattice,
-    judge::{Coverage, PIXELS_AT_ZOOM_1, Reason, Verdict},
+    judge::{Coverage, PIXELS_AT_ZOOM_1, Verdict},
     placed::{Placed, PlacedKind, place_item},
     scales::Scales,
 };
@@ -95,10 +95,7 @@ pub(crate) fn cover(
             if let Ok(cover) = cutter.cut(placed) {
                 return cover;
             }
-            let verdict = Verdict {
-                coverage: Coverage::Msdf,
-                reason: Reason::TooComplex,
-            };
+            let verdict = Verdict::unmeasured(Coverage::Msdf, Finding::TooManySegments);
             *placed = place_item(item, lattice, longer, verdict);
         }
         Cover {

@@ -12,7 +12,7 @@ use crate::{
     drawing::Drawing,
     error::BakeError,
     grid::Lattice,
-    judge::{all_curves, judge},
+    judge::{Judgement, all_curves, judge},
     msdf::{TileShape, TileSpec, render_tile},
     paint_table::PaintTable,
     placed::{Placed, PlacedKind, place},
@@ -37,11 +37,14 @@ pub(crate) fn assemble(
     let mip0_size = mips
         .as_ref()
         .map_or(config.mip0_size, |image| image.size[0].max(image.size[1]));
-    let verdicts = judge(&drawing, config, mip0_size);
+    let Judgement {
+        verdicts,
+        msdf_size,
+    } = judge(&drawing, config, mip0_size);
     let lattice = if all_curves(&drawing, &verdicts) {
-        Lattice::for_curves(drawing.canvas_size, config.msdf_size, mip0_size)
+        Lattice::for_curves(drawing.canvas_size, msdf_size, mip0_size)
     } else {
-        Lattice::new(drawing.canvas_size, config.msdf_size)
+        Lattice::new(drawing.canvas_size, msdf_size)
     };
     let scales = Scales::new(config, &lattice, mip0_size);
     let mut placed = place(&drawing, &lattice, &verdicts);

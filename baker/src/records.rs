@@ -3,8 +3,8 @@
 use kurbo::{Rect, Shape as _};
 use vtex_format::{
     COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CurveLattice, FILL_EVEN_ODD, FILL_NON_ZERO,
-    Image, Meta, Outline, Provenance, SamplerSettings, ShapeRecord, ShapeReport, Warning,
-    WarningCode,
+    Finding, Image, Meta, Outline, Preparation, Provenance, SamplerSettings, ShapeRecord,
+    ShapeReport, Warning, WarningCode,
 };
 
 use crate::{
@@ -12,7 +12,7 @@ use crate::{
     config::BakeConfig,
     drawing::{Drawing, FillRule, Item, ShapeSource, to_f32},
     grid::Lattice,
-    judge::{Coverage, Reason, Verdict},
+    judge::{Coverage, Verdict, size_texels},
     placed::{Placed, PlacedKind},
     prepare::Note,
     scales::Scales,
@@ -127,9 +127,9 @@ pub(crate) fn warnings(
 
 /// What went wrong with an outline, if something did.
 fn fallback(note: Note, verdict: Verdict) -> Option<&'static str> {
-    if note == Note::Fallback {
+    if note == Note::Failed {
         Some("overlaps in this outline could not be removed; its edges may be rough")
-    } else if verdict.reason == Reason::TooComplex {
+    } else if verdict.finding == Finding::TooManySegments {
         Some("this outline is too complex for curves; its edges are rough at high zoom")
     } else {
         None
@@ -153,33 +153,52 @@ pub(crate) fn provenance(
     source_hash: [u8; 32],
     warnings: Vec<Warning>,
 ) -> Provenance {
-    let report = |(item, placed): (&Item, &Placed)| match item {
-        Item::Shape(shape) => ShapeReport {
-            element: shape.element.clone(),
-            source: match shape.source {
-                ShapeSource::Fill => "fill".into(),
-                ShapeSource::Stroke => "stroke".into(),
-            },
-            note: match placed.kind {
-                PlacedKind::Shape { note, verdict, .. } => match note.text() {
-                    "" => verdict.text(),
-                    note => format!("{note}; {}", verdict.text()),
-                },
-                PlacedKind::Patch => String::new(),
-            },
-        },
-        Item::Patch(patch) => ShapeReport {
-            element: patch.element.clone(),
-            source: patch.feature.clone(),
-            note: String::new(),
-        },
-    };
     Provenance {
         source_hash,
         tool: concat!("vtex-baker ", env!("CARGO_PKG_VERSION")).into(),
         options: options(config),
         shapes: drawing.items.iter().zip(placed).map(report).collect(),
         warnings,
+    }
+}
+
+fn report((item, placed): (&Item, &Placed)) -> ShapeReport {
+    let (element, source) = match item {
+        Item::Shape(shape) => {
+            let source = match shape.source {
+                ShapeSource::Fill => "fill",
+                ShapeSource::Stroke => "stroke",
+            };
+            (&shape.element, source)
+        }
+        Item::Patch(patch) => (&patch.element, patch.feature.as_str()),
+    };
+    let report = ShapeReport {
+        element: element.clone(),
+        source: source.to_owned(),
+        ..ShapeReport::default()
+    };
+    match placed.kind {
+        PlacedKind::Shape { note, verdict, .. } => ShapeReport {
+            preparation: preparation(note),
+            finding: verdict.finding,
+            size_texels: match verdict.coverage {
+                Coverage::Msdf => size_texels(placed),
+                Coverage::Curves => verdict.size_texels,
+            },
+            field_error: verdict.error,
+            ..report
+        },
+        PlacedKind::Patch => report,
+    }
+}
+
+fn preparation(note: Note) -> Preparation {
+    match note {
+        Note::AsDrawn => Preparation::AsDrawn,
+        Note::Simplified => Preparation::Simplified,
+        Note::SecondMethod => Preparation::SecondMethod,
+        Note::Failed => Preparation::Failed,
     }
 }
 

@@ -1,17 +1,15 @@
-//! How far a shape's distance field is off.
+//! How far a shape's distance field is off, and where.
 
-use kurbo::{ParamCurve, ParamCurveArclen, ParamCurveDeriv, PathSeg, Point, Vec2};
+use kurbo::{BezPath, Line, ParamCurve, ParamCurveArclen, ParamCurveDeriv, PathSeg, Point, Vec2};
 use rayon::prelude::*;
+use vtex_format::Finding;
 
+use super::{Candidate, WRONG_SHARE_BOUND};
 use crate::{
     classify::{ShapeCells, classify},
-    drawing::{Drawing, Item},
-    geometry::floor_index,
-    grid::Lattice,
-    judge::{Coverage, Verdict},
+    geometry::{floor_index, line_line_distance},
     msdf::{TileShape, TileSpec, render_tile},
-    placed::{Placed, place_item},
-    scales::Scales,
+    placed::Placed,
 };
 
 /// Distance of probes along the outline in steps; texels are a step apart.
@@ -22,47 +20,60 @@ const MAX_PROBES: f64 = 4096.0;
 const STAND_OFF: f64 = 2.0;
 /// Accuracy of arc lengths in steps.
 const LENGTH_ACCURACY: f64 = 1e-2;
+/// Where a shape or a gap in it is thinner than this many steps, its two edges share texels.
+const THIN_STEPS: f64 = 1.5;
+/// Errors nearer than this to a sharp corner are put down to it.
+const CUSP_REACH_STEPS: f64 = 1.5;
+/// Cosine of the largest angle of a corner that counts as sharp: 30 degrees.
+const CUSP_COSINE: f64 = 0.866;
 
 /// Error of a distance field at the wanted zoom.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Measured {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Measured {
     /// 99th percentile of the edge's displacement, in pixels.
-    pub(crate) p99_px: f64,
-    /// Share of probes close to the edge that come out on the wrong side.
-    pub(crate) wrong: f64,
+    pub(super) p99_px: f64,
+    /// Share of probes around the edge that come out on the wrong side.
+    pub(super) wrong: f64,
+    /// Where most of the error is, if it is beyond the bound.
+    pub(super) cause: Finding,
 }
 
-/// Measures every shape of `drawing`; patches get zeros.
-pub(super) fn measure(
-    drawing: &Drawing,
-    lattice: &Lattice,
-    scales: Scales,
-    px_per_step: f64,
-    error_px: f64,
-) -> Vec<Measured> {
-    let longer = drawing.canvas_size[0].max(drawing.canvas_size[1]);
-    let measure_one = |item: &Item| {
-        if matches!(item, Item::Patch(_)) {
-            return Measured::default();
-        }
-        let placed = place_item(item, lattice, longer, Verdict::forced(Coverage::Msdf));
-        Field::new(&placed, lattice, scales).measure(px_per_step, error_px)
-    };
-    drawing.items.par_iter().map(measure_one).collect()
+impl Measured {
+    /// Whether the field may stand for the shape.
+    pub(super) fn within(&self, error_px: f64) -> bool {
+        self.p99_px <= error_px && self.wrong <= WRONG_SHARE_BOUND
+    }
+}
+
+/// Measures the field that `placed`, on the candidate's lattice, would have by itself.
+pub(super) fn measure(placed: &Placed, candidate: &Candidate) -> Measured {
+    Field::new(placed, candidate).measure()
 }
 
 /// The distance field of one shape alone.
 struct Field<'a> {
     placed: &'a Placed,
-    lattice: &'a Lattice,
-    range: f64,
+    candidate: &'a Candidate,
     cells: ShapeCells,
     /// One a cell of [`ShapeCells::listed`].
     tiles: Vec<Vec<u8>>,
 }
 
+/// What probes found.
+#[derive(Default)]
+struct Tally {
+    displacements_px: Vec<f64>,
+    compared: u32,
+    wrong: u32,
+    /// Places of errors beyond the bound, with a normal where they lie on the edge.
+    errors: Vec<(Point, Vec2)>,
+}
+
 impl<'a> Field<'a> {
-    fn new(placed: &'a Placed, lattice: &'a Lattice, scales: Scales) -> Self {
+    fn new(placed: &'a Placed, candidate: &'a Candidate) -> Self {
+        let Candidate {
+            lattice, scales, ..
+        } = candidate;
         let cells = classify(placed, lattice, scales.distances);
         let columns = lattice.grid.size_cells[0];
         let steps = lattice.grid.texels_per_cell;
@@ -82,49 +93,132 @@ impl<'a> Field<'a> {
         let tiles = cells.listed.par_iter().map(tile).collect();
         Self {
             placed,
-            lattice,
-            range: scales.range,
+            candidate,
             cells,
             tiles,
         }
     }
 
-    fn measure(&self, px_per_step: f64, error_px: f64) -> Measured {
+    fn measure(&self) -> Measured {
+        let mut tally = Tally::default();
+        self.probe_edges(&mut tally);
+        self.probe_cells(&mut tally);
+        let off = &mut tally.displacements_px;
+        off.sort_by(f64::total_cmp);
+        Measured {
+            p99_px: off.get(off.len() * 99 / 100).copied().unwrap_or(0.0),
+            wrong: f64::from(tally.wrong) / f64::from(tally.compared.max(1)),
+            cause: self.cause(&tally.errors),
+        }
+    }
+
+    /// Along the edge for its displacement, and beside it for the side.
+    fn probe_edges(&self, tally: &mut Tally) {
+        let Candidate {
+            px_per_step,
+            error_px,
+            ..
+        } = *self.candidate;
         let stand_off = STAND_OFF * error_px / px_per_step;
-        let mut off_px = Vec::new();
-        let (mut wrong, mut compared) = (0_u32, 0_u32);
         for (p, normal) in probes(&self.placed.outline) {
             let Some(distance) = self.distance(p) else {
                 continue;
             };
-            off_px.push(distance.abs() * px_per_step);
+            let off = distance.abs() * px_per_step;
+            tally.displacements_px.push(off);
+            let mut bad = off > error_px;
             for beside in [p + stand_off * normal, p - stand_off * normal] {
-                if let Some(distance) = self.distance(beside) {
-                    compared += 1;
-                    wrong += u32::from((distance > 0.0) != self.placed.region.contains(beside));
+                let Some(distance) = self.distance(beside) else {
+                    continue;
+                };
+                tally.compared += 1;
+                if (distance > 0.0) != self.placed.region.contains(beside) {
+                    tally.wrong += 1;
+                    bad = true;
+                }
+            }
+            if bad {
+                tally.errors.push((p, normal));
+            }
+        }
+    }
+
+    /// All over the cells that the edge passes through, one point between every four texels: the
+    /// median of three fields can be wrong far from any edge.
+    fn probe_cells(&self, tally: &mut Tally) {
+        let lattice = &self.candidate.lattice;
+        let columns = lattice.grid.size_cells[0];
+        let steps = lattice.grid.texels_per_cell;
+        for &cell in &self.cells.listed {
+            let corner = [cell % columns, cell / columns].map(|index| index * steps);
+            for k in 0..steps * steps {
+                // The additive recurrence R2 of Roberts (2018) spreads points within the texels.
+                let within = |share: f64| (f64::from(k + 1) * share).fract();
+                let p = Point::new(
+                    f64::from(corner[0] + k % steps) + within(0.754_877_666_246_692_8),
+                    f64::from(corner[1] + k / steps) + within(0.569_840_290_998_053_3),
+                );
+                let Some(distance) = self.distance(p) else {
+                    continue;
+                };
+                tally.compared += 1;
+                let wrong = (distance > 0.0) != self.placed.region.contains(p);
+                if wrong && self.is_off_edge(cell, p) {
+                    tally.wrong += 1;
+                    tally.errors.push((p, Vec2::ZERO));
                 }
             }
         }
-        off_px.sort_by(f64::total_cmp);
-        let rank = off_px.len() * 99 / 100;
-        Measured {
-            p99_px: off_px.get(rank).copied().unwrap_or(0.0),
-            wrong: f64::from(wrong) / f64::from(compared.max(1)),
+    }
+
+    /// Whether `p` in `cell` is further from the edge than the bound on the error.
+    fn is_off_edge(&self, cell: u32, p: Point) -> bool {
+        let bound = self.candidate.error_px / self.candidate.px_per_step;
+        let mut lines = self.cells.edges_near(cell).flat_map(|edge| edge.lines());
+        lines.all(|line| line_line_distance(line, Line::new(p, p)) > bound)
+    }
+
+    /// What most of the errors are near to.
+    fn cause(&self, errors: &[(Point, Vec2)]) -> Finding {
+        let cusps = cusps(&self.placed.outline);
+        let near_cusp = |p: Point| cusps.iter().any(|c| (*c - p).hypot() < CUSP_REACH_STEPS);
+        let (mut at_cusps, mut thin) = (0, 0);
+        for &(p, normal) in errors {
+            if near_cusp(p) {
+                at_cusps += 1;
+            } else if self.is_thin(p, normal) {
+                thin += 1;
+            }
         }
+        match errors.len() {
+            0 => Finding::None,
+            all if 2 * at_cusps >= all && at_cusps >= thin => Finding::Cusp,
+            all if 2 * (thin + at_cusps) >= all => Finding::ThinFeature,
+            _ => Finding::Displaced,
+        }
+    }
+
+    /// Whether the shape, or the gap beside it, ends within [`THIN_STEPS`] of the edge at `p`.
+    fn is_thin(&self, p: Point, normal: Vec2) -> bool {
+        [normal, -normal].into_iter().any(|outwards| {
+            let at = |steps: f64| self.placed.region.contains(p + steps * outwards);
+            at(0.05) != at(THIN_STEPS)
+        })
     }
 
     /// The stored distance at `p` in steps, positive inside, as evaluators interpolate it; `None`
     /// beside the canvas and where the shape has no tile.
     fn distance(&self, p: Point) -> Option<f64> {
-        if !self.lattice.canvas.contains(p) {
+        let lattice = &self.candidate.lattice;
+        if !lattice.canvas.contains(p) {
             return None;
         }
-        let n = self.lattice.cell_steps();
+        let n = lattice.cell_steps();
         let [column, row] = [p.x / n, p.y / n].map(floor_index);
-        let cell = row * self.lattice.grid.size_cells[0] as usize + column;
+        let cell = row * lattice.grid.size_cells[0] as usize + column;
         let cell = u32::try_from(cell).ok()?;
         let tile = &self.tiles[self.cells.listed.binary_search(&cell).ok()?];
-        let side = self.lattice.grid.texels_per_cell as usize + 1;
+        let side = lattice.grid.texels_per_cell as usize + 1;
         #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
         let q = [p.x - column as f64 * n, p.y - row as f64 * n];
         let [x, y] = q.map(|v| floor_index(v).min(side - 2));
@@ -137,12 +231,12 @@ impl<'a> Field<'a> {
         };
         let [r, g, b] = [0, 1, 2].map(channel);
         let median = r.min(g).max(r.max(g).min(b));
-        Some((median / 255.0 - 0.5) * self.range)
+        Some((median / 255.0 - 0.5) * self.candidate.scales.range)
     }
 }
 
 /// Points along an outline with unit normals.
-fn probes(outline: &kurbo::BezPath) -> impl Iterator<Item = (Point, Vec2)> {
+fn probes(outline: &BezPath) -> impl Iterator<Item = (Point, Vec2)> {
     outline.segments().flat_map(|segment| {
         let count = (segment.arclen(LENGTH_ACCURACY) / PROBE_STEPS)
             .ceil()
@@ -163,4 +257,33 @@ fn tangent(segment: &PathSeg, t: f64) -> Vec2 {
         PathSeg::Quad(quad) => quad.deriv().eval(t).to_vec2(),
         PathSeg::Cubic(cubic) => cubic.deriv().eval(t).to_vec2(),
     }
+}
+
+/// Corners of closed contours where the outline nearly turns back.
+fn cusps(outline: &BezPath) -> Vec<Point> {
+    let mut cusps = Vec::new();
+    let mut first: Option<PathSeg> = None;
+    let mut last: Option<PathSeg> = None;
+    let mut visit = |before: Option<PathSeg>, after: Option<PathSeg>| {
+        if let (Some(before), Some(after)) = (before, after)
+            && before.end() == after.start()
+        {
+            let [back, on] = [-tangent(&before, 0.99), tangent(&after, 0.01)].map(Vec2::normalize);
+            if back.dot(on) > CUSP_COSINE {
+                cusps.push(after.start());
+            }
+        }
+    };
+    for segment in outline.segments() {
+        let continues = last.is_some_and(|last| last.end() == segment.start());
+        if continues {
+            visit(last, Some(segment));
+        } else {
+            visit(last, first);
+            first = Some(segment);
+        }
+        last = Some(segment);
+    }
+    visit(last, first);
+    cusps
 }

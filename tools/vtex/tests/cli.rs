@@ -397,7 +397,8 @@ fn info_preview_extract_and_compare_tell_what_is_there() {
     );
     for name in [
         "layer-000-msdf.png",
-        "cells.png",
+        "cells-entries.png",
+        "cells-segments.png",
         "cells.json",
         "shader.wgsl",
         "batch.spv",

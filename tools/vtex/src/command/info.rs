@@ -4,14 +4,15 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 use vtex_format::{
-    COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CellWord, Directory, Features, Limits,
-    PaintRecord, ShapeRecord, VtexFile, Warning, directory,
+    COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CellWord, Directory, Features, Finding, Limits,
+    PaintRecord, Preparation, ShapeRecord, ShapeReport, VtexFile, Warning, directory,
 };
 
 use crate::args::Info;
 use crate::console::{Console, Format, human_bytes};
 use crate::failure::{ExitCode, Outcome};
-use crate::heat::entry_counts;
+use crate::heat::cell_loads;
+use crate::walk::{Spread, lookup_load};
 use crate::{input, texture};
 
 /// Shapes listed unless `--verbose`.
@@ -50,14 +51,15 @@ impl CellStats {
             words.filter(|&cell| wanted(cell)).count() as u64
         };
         let lists = count(|cell| matches!(cell, CellWord::List { .. }));
-        let lengths = entry_counts(file);
-        let listed: u64 = lengths.iter().map(|&length| u64::from(length)).sum();
+        let loads = cell_loads(file);
+        let lengths = || loads.iter().map(|load| load.entries);
+        let listed: u64 = lengths().map(u64::from).sum();
         Self {
             empty: count(|cell| cell == CellWord::Empty),
             single: count(|cell| matches!(cell, CellWord::Solid { .. })),
             lists,
             entries_mean: listed as f64 / lists.max(1) as f64,
-            entries_max: lengths.into_iter().max().unwrap_or(0),
+            entries_max: lengths().max().unwrap_or(0),
         }
     }
 }
@@ -85,6 +87,7 @@ pub(crate) fn feature_names(features: u32) -> Vec<&'static str> {
 fn json(file: &VtexFile, directory: &Directory) -> Value {
     let meta = &file.meta;
     let cells = CellStats::new(file);
+    let lookups = lookup_load(file);
     let provenance = file.provenance.as_ref();
     let layers: Vec<_> = (0..)
         .zip(&file.layers)
@@ -124,6 +127,10 @@ fn json(file: &VtexFile, directory: &Directory) -> Value {
             "empty": cells.empty, "single": cells.single, "lists": cells.lists,
             "entries_mean": cells.entries_mean, "entries_max": cells.entries_max,
         },
+        "lookups": {
+            "entries_mean": lookups.entries.mean, "entries_p99": lookups.entries.p99,
+            "segments_mean": lookups.segments.mean, "segments_p99": lookups.segments.p99,
+        },
         "tiles": tile_count(file), "paints": file.paints.len(),
         "layers": layers, "shapes": shapes, "images": images, "sections": sections,
         "shader": {
@@ -140,6 +147,7 @@ fn json(file: &VtexFile, directory: &Directory) -> Value {
 
 fn shape_json(file: &VtexFile, index: usize, shape: &ShapeRecord) -> Value {
     let report = file.provenance.as_ref().and_then(|p| p.shapes.get(index));
+    let error = report.and_then(|r| r.field_error);
     let place = match shape.coverage {
         COVERAGE_IMAGE => json!({"image": shape.layer_or_image}),
         _ => json!({"layer": shape.layer_or_image}),
@@ -147,7 +155,10 @@ fn shape_json(file: &VtexFile, index: usize, shape: &ShapeRecord) -> Value {
     let mut record = json!({
         "coverage": coverage_name(shape.coverage),
         "element": report.map(|r| &r.element), "source": report.map(|r| &r.source),
-        "note": report.map(|r| &r.note),
+        "preparation": report.map(|r| preparation_name(r.preparation)),
+        "finding": report.map(|r| finding_name(r.finding)),
+        "size_texels": report.map(|r| r.size_texels),
+        "wrong_share": error.map(|e| e.wrong_share), "p99_px": error.map(|e| e.p99_px),
         "bounds_uv": shape.bounds_uv, "segments": shape.segment_count,
         "color": file.paints.get(shape.paint as usize).map(|paint| paint.color),
     });
@@ -162,6 +173,51 @@ fn coverage_name(coverage: u32) -> &'static str {
         COVERAGE_MSDF => "msdf",
         COVERAGE_CURVES => "curves",
         _ => "image",
+    }
+}
+
+fn preparation_name(preparation: Preparation) -> &'static str {
+    match preparation {
+        Preparation::AsDrawn => "as drawn",
+        Preparation::Simplified => "simplified",
+        Preparation::SecondMethod => "second method",
+        Preparation::Failed => "failed",
+    }
+}
+
+fn finding_name(finding: Finding) -> &'static str {
+    match finding {
+        Finding::None => "none",
+        Finding::Cost => "cost",
+        Finding::Quantisation => "quantisation",
+        Finding::Hairline => "hairline",
+        Finding::Cusp => "cusp",
+        Finding::ThinFeature => "thin feature",
+        Finding::Displaced => "displaced",
+        Finding::Overlaps => "overlaps",
+        Finding::TooManySegments => "too many segments",
+    }
+}
+
+/// What a report says beyond the ordinary.
+fn report_text(report: &ShapeReport) -> String {
+    let mut parts = Vec::new();
+    if report.preparation != Preparation::AsDrawn {
+        parts.push(preparation_name(report.preparation).to_owned());
+    }
+    if report.finding != Finding::None {
+        parts.push(finding_name(report.finding).to_owned());
+    }
+    if report.size_texels > 0 {
+        parts.push(format!("{} texels", report.size_texels));
+    }
+    if let Some(error) = report.field_error {
+        let (p99, wrong) = (error.p99_px, 100.0 * error.wrong_share);
+        parts.push(format!("off {p99:.3} px, {wrong:.2}% wrong"));
+    }
+    match parts.is_empty() {
+        true => String::new(),
+        false => format!("[{}]", parts.join(", ")),
     }
 }
 
@@ -290,6 +346,14 @@ fn general(out: &mut String, file: &VtexFile, directory: &Directory) -> std::fmt
         "lists      {:.2} entries on average, {} at most",
         cells.entries_mean, cells.entries_max
     )?;
+    let lookups = lookup_load(file);
+    let spread = |Spread { mean, p99 }| format!("{mean:.2} (p99 {p99})");
+    writeln!(
+        out,
+        "lookups    {} entries, {} segments at random points",
+        spread(lookups.entries),
+        spread(lookups.segments)
+    )?;
     let side = grid.texels_per_cell + 1;
     writeln!(
         out,
@@ -368,9 +432,15 @@ fn shapes(out: &mut String, file: &VtexFile, shown: usize) -> std::fmt::Result {
             _ => "-".to_owned(),
         };
         let what = report.map_or_else(String::new, |report| {
-            format!("{} {} {}", report.source, report.element, report.note)
-                .trim_end()
-                .to_owned()
+            [
+                report.source.clone(),
+                report.element.clone(),
+                report_text(report),
+            ]
+            .into_iter()
+            .filter(|text| !text.is_empty())
+            .collect::<Vec<_>>()
+            .join(" ")
         });
         writeln!(
             out,
