@@ -22,6 +22,10 @@ use crate::{
 /// Measured: of 51 shapes of the Tiger that fail at 64 texels a shape, 39 are such strokes.
 const HAIRLINE_STEPS: f64 = 1.0;
 
+/// Fields must cost less than this share of what curves alone would: estimates are about as good,
+/// and a file of two kinds has the code of both.
+const WORTHWHILE: f64 = 0.95;
+
 /// A shape before its kind is known.
 struct Subject {
     prepared: Prepared,
@@ -58,7 +62,7 @@ pub(super) fn choose(
     mip0_size: u32,
     candidates: &[Candidate],
 ) -> Judgement {
-    let subjects = subjects(drawing);
+    let subjects = subjects(drawing, config.max_zoom);
     let whole = cost_as_curves(drawing, config, mip0_size, &subjects);
     let mut promises: Vec<(f64, &Candidate)> = candidates
         .iter()
@@ -71,7 +75,7 @@ pub(super) fn choose(
         })
         .collect();
     promises.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let curves = whole.relative_to(whole);
+    let curves = WORTHWHILE * whole.relative_to(whole);
     let mut best: Option<Choice> = None;
     for (promise, candidate) in promises {
         if best
@@ -108,14 +112,15 @@ pub(super) fn choose(
 }
 
 /// One an item; patches have none.
-fn subjects(drawing: &Drawing) -> Vec<Option<Subject>> {
+fn subjects(drawing: &Drawing, max_zoom: f32) -> Vec<Option<Subject>> {
     let longer = drawing.canvas_size[0].max(drawing.canvas_size[1]);
     let subject = |item: &Item| match item {
         Item::Shape(shape) => {
             let prepared = prepare(shape, longer);
+            let drawn = clean(&shape.outline, longer);
             Some(Subject {
-                extent: Extent::new(&prepared.outline, drawing.canvas_size),
-                drawn: Extent::new(&clean(&shape.outline, longer), drawing.canvas_size),
+                extent: Extent::new(&prepared.outline, drawing.canvas_size, max_zoom),
+                drawn: Extent::new(&drawn, drawing.canvas_size, max_zoom),
                 prepared,
             })
         }

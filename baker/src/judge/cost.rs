@@ -1,12 +1,20 @@
 //! What a kind of coverage costs: bytes in the file and time in a lookup.
 
-use kurbo::{BezPath, Rect, Shape as _};
+use kurbo::{Affine, BezPath, Rect, Shape as _};
 
-use super::Candidate;
+use super::{Candidate, PIXELS_AT_ZOOM_1};
 use crate::{
+    curves::lower::LoweredOutline,
     geometry::{clip_line, flatten},
     grid::Lattice,
 };
+
+/// Sides of unit boxes that a line of length 1 crosses, averaged over directions.
+const CROSSINGS: f64 = 4.0 / std::f64::consts::PI;
+/// Unit of curve records in pixels at the largest zoom, and how many of them lowering may move a
+/// curve: about what cells use, for counting only.
+const UNIT_PX: f64 = 0.04;
+const TOLERANCE_UNITS: f64 = 1.25;
 
 /// What parts of a file cost. The one place for these numbers; where they come from stands in
 /// docs/decisions/0006-judge.md.
@@ -99,13 +107,13 @@ pub(super) struct Extent {
     visible: Rect,
     /// Contours.
     contours: f64,
-    /// Segments on the canvas.
+    /// Segments on the canvas, as curve records would hold them.
     segments: f64,
 }
 
 impl Extent {
-    /// Of an outline on a canvas.
-    pub(super) fn new(outline: &BezPath, canvas_size: [f64; 2]) -> Self {
+    /// Of an outline on a canvas, to be seen at `max_zoom`.
+    pub(super) fn new(outline: &BezPath, canvas_size: [f64; 2], max_zoom: f32) -> Self {
         let canvas = Rect::new(0.0, 0.0, canvas_size[0], canvas_size[1]);
         let tolerance = 1e-3 * canvas.width().max(canvas.height());
         let (mut whole, mut length) = (0.0, 0.0);
@@ -120,6 +128,9 @@ impl Extent {
         if length <= 0.0 {
             return Self::default();
         }
+        let px = PIXELS_AT_ZOOM_1 * f64::from(max_zoom) / canvas.width().max(canvas.height());
+        let lowered = LoweredOutline::new(&(Affine::scale(px / UNIT_PX) * outline), TOLERANCE_UNITS);
+        let segments = lowered.map_or_else(|_| outline.segments().count(), |l| l.segments.len());
         #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
         let count = |n: usize| n as f64;
         Self {
@@ -127,7 +138,7 @@ impl Extent {
             width: 2.0 * outline.area().abs() / whole,
             visible: outline.bounding_box().intersect(canvas),
             contours: count(contours.len()),
-            segments: count(outline.segments().count()) * length / whole,
+            segments: count(segments) * length / whole,
         }
     }
 
@@ -141,7 +152,7 @@ impl Extent {
         let side = 1.0 + 2.0 * margin / lattice.cell_steps();
         let thickness = (self.width / (side * cell)).min(1.0);
         let length = self.length / cell * 0.5 * (1.0 + thickness);
-        let along = self.contours * side * side + 4.0 / std::f64::consts::PI * side * length;
+        let along = self.contours * side * side + CROSSINGS * side * length;
         let [columns, rows] = [self.visible.width(), self.visible.height()];
         along.min((columns / cell + side) * (rows / cell + side))
     }
@@ -170,8 +181,10 @@ impl Extent {
             return Cost::default();
         }
         let listed = self.listed_cells(lattice, margin);
-        // Each side of a cell cuts a segment in two.
-        let segments = self.segments + listed;
+        // The same law for each segment by itself.
+        let side = 1.0 + 2.0 * margin / lattice.cell_steps();
+        let length = self.length / (lattice.cell_steps() * self.units_per_step(lattice));
+        let segments = self.segments * side * side + CROSSINGS * side * length;
         Cost {
             bytes: listed * (RATES.entry_bytes + RATES.record_bytes)
                 + segments * RATES.segment_bytes,

@@ -1,25 +1,33 @@
 //! How far a shape's distance field is off, and where.
 
-use kurbo::{BezPath, Line, ParamCurve, ParamCurveArclen, ParamCurveDeriv, PathSeg, Point, Vec2};
+use kurbo::{BezPath, Line, ParamCurve, ParamCurveDeriv, PathSeg, Point, Vec2};
 use rayon::prelude::*;
 use vtex_format::Finding;
 
 use super::{Candidate, WRONG_SHARE_BOUND};
 use crate::{
     classify::{ShapeCells, classify},
-    geometry::{floor_index, line_line_distance},
+    geometry::{flatten, floor_index, line_line_distance},
     msdf::{TileShape, TileSpec, render_tile},
     placed::Placed,
 };
 
 /// Distance of probes along the outline in steps; texels are a step apart.
-const PROBE_STEPS: f64 = 0.5;
-/// Probes of one segment; of a longer one some texels stay unseen.
-const MAX_PROBES: f64 = 4096.0;
+const PROBE_STEPS: f64 = 0.25;
+/// Probes of one shape; a longer outline is seen in part.
+const MAX_PROBES: usize = 1 << 20;
+/// How far probes may lie beside the outline, as a share of the bound on the error.
+const FOLLOW_SHARE: f64 = 0.02;
 /// Probes beside the edge stand off by this many times the bound on the error.
 const STAND_OFF: f64 = 2.0;
-/// Accuracy of arc lengths in steps.
-const LENGTH_ACCURACY: f64 = 1e-2;
+/// Displacements are followed this far, in this many strides.
+const WALK_REACH_STEPS: f64 = 2.0;
+const WALK_STEPS: u32 = 200;
+/// Edges of slivers thinner than this share of the bound on the error show nothing and are not
+/// asked about. More than [`FOLLOW_SHARE`].
+const SLIVER_SHARE: f64 = 0.1;
+/// No field is taken to be flatter than this, distance a step.
+const FLATTEST_SLOPE: f64 = 0.25;
 /// Where a shape or a gap in it is thinner than this many steps, its two edges share texels.
 const THIN_STEPS: f64 = 1.5;
 /// Errors nearer than this to a sharp corner are put down to it.
@@ -120,19 +128,34 @@ impl<'a> Field<'a> {
             ..
         } = *self.candidate;
         let stand_off = STAND_OFF * error_px / px_per_step;
-        for (p, normal) in probes(&self.placed.outline) {
-            let Some(distance) = self.distance(p) else {
+        let tolerance = FOLLOW_SHARE * error_px / px_per_step;
+        let sliver = SLIVER_SHARE * error_px / px_per_step;
+        for (p, normal) in probes(&self.placed.outline, tolerance) {
+            let sides = [p + sliver * normal, p - sliver * normal];
+            let [left, right] = sides.map(|p| self.placed.region.contains(p));
+            let Some(distance) = self.distance(p).filter(|_| left != right) else {
                 continue;
             };
-            let off = distance.abs() * px_per_step;
+            let beside = [1.0, -1.0].map(|side| p + side * stand_off * normal);
+            let around = beside.map(|beside| self.distance(beside));
+            // Where two edges mix, the field is flatter than a distance and its zero further off.
+            let slope = match around {
+                [Some(a), Some(b)] => ((a - b) / (2.0 * stand_off)).abs(),
+                _ => 1.0,
+            };
+            let guess = distance.abs() / slope.clamp(FLATTEST_SLOPE, 1.0) * px_per_step;
+            let off = if guess > error_px {
+                let inwards = if left { normal } else { -normal };
+                self.displacement(p, inwards) * px_per_step
+            } else {
+                guess
+            };
             tally.displacements_px.push(off);
             let mut bad = off > error_px;
-            for beside in [p + stand_off * normal, p - stand_off * normal] {
-                let Some(distance) = self.distance(beside) else {
-                    continue;
-                };
+            for (beside, distance) in beside.into_iter().zip(around) {
+                let Some(distance) = distance else { continue };
                 tally.compared += 1;
-                if (distance > 0.0) != self.placed.region.contains(beside) {
+                if self.is_wrong(beside, distance) {
                     tally.wrong += 1;
                     bad = true;
                 }
@@ -162,8 +185,7 @@ impl<'a> Field<'a> {
                     continue;
                 };
                 tally.compared += 1;
-                let wrong = (distance > 0.0) != self.placed.region.contains(p);
-                if wrong && self.is_off_edge(cell, p) {
+                if self.is_wrong(p, distance) {
                     tally.wrong += 1;
                     tally.errors.push((p, Vec2::ZERO));
                 }
@@ -171,11 +193,31 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Whether `p` in `cell` is further from the edge than the bound on the error.
-    fn is_off_edge(&self, cell: u32, p: Point) -> bool {
+    /// Whether a stored `distance` at `p` has the wrong sign, further from the edge than the bound
+    /// on the error.
+    fn is_wrong(&self, p: Point, distance: f64) -> bool {
+        if (distance > 0.0) == self.placed.region.contains(p) {
+            return false;
+        }
         let bound = self.candidate.error_px / self.candidate.px_per_step;
+        let cell = self.cell_at(p).unwrap_or(u32::MAX);
         let mut lines = self.cells.edges_near(cell).flat_map(|edge| edge.lines());
         lines.all(|line| line_line_distance(line, Line::new(p, p)) > bound)
+    }
+
+    /// Steps from the edge at `p` to where the field changes sign. Where it does not, this edge has
+    /// met the next one, of the shape or of a gap in it, halfway.
+    fn displacement(&self, p: Point, inwards: Vec2) -> f64 {
+        let region = &self.placed.region;
+        let is_inside = |s: f64| self.distance(p + s * inwards).map(|d| d > 0.0);
+        let changes = |s: f64| is_inside(-s) == Some(false) && is_inside(s) == Some(true);
+        let spans = (1..=WALK_STEPS).map(|k| WALK_REACH_STEPS * f64::from(k) / f64::from(WALK_STEPS));
+        if let Some(span) = spans.clone().find(|&s| changes(s)) {
+            return span;
+        }
+        let ends = |s: f64| !region.contains(p + s * inwards) || region.contains(p - s * inwards);
+        let next = spans.into_iter().find(|&s| ends(s));
+        next.map_or(WALK_REACH_STEPS, |s| 0.5 * s)
     }
 
     /// What most of the errors are near to.
@@ -206,18 +248,25 @@ impl<'a> Field<'a> {
         })
     }
 
-    /// The stored distance at `p` in steps, positive inside, as evaluators interpolate it; `None`
-    /// beside the canvas and where the shape has no tile.
-    fn distance(&self, p: Point) -> Option<f64> {
+    /// The cell at `p`; `None` beside the canvas.
+    fn cell_at(&self, p: Point) -> Option<u32> {
         let lattice = &self.candidate.lattice;
         if !lattice.canvas.contains(p) {
             return None;
         }
+        let [column, row] = [p.x, p.y].map(|v| floor_index(v / lattice.cell_steps()));
+        let cell = row * lattice.grid.size_cells[0] as usize + column;
+        u32::try_from(cell).ok()
+    }
+
+    /// The stored distance at `p` in steps, positive inside, as evaluators interpolate it; `None`
+    /// beside the canvas and where the shape has no tile.
+    fn distance(&self, p: Point) -> Option<f64> {
+        let lattice = &self.candidate.lattice;
+        let cell = self.cell_at(p)?;
+        let tile = &self.tiles[self.cells.listed.binary_search(&cell).ok()?];
         let n = lattice.cell_steps();
         let [column, row] = [p.x / n, p.y / n].map(floor_index);
-        let cell = row * lattice.grid.size_cells[0] as usize + column;
-        let cell = u32::try_from(cell).ok()?;
-        let tile = &self.tiles[self.cells.listed.binary_search(&cell).ok()?];
         let side = lattice.grid.texels_per_cell as usize + 1;
         #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
         let q = [p.x - column as f64 * n, p.y - row as f64 * n];
@@ -235,20 +284,25 @@ impl<'a> Field<'a> {
     }
 }
 
-/// Points along an outline with unit normals.
-fn probes(outline: &BezPath) -> impl Iterator<Item = (Point, Vec2)> {
-    outline.segments().flat_map(|segment| {
-        let count = (segment.arclen(LENGTH_ACCURACY) / PROBE_STEPS)
-            .ceil()
-            .clamp(1.0, MAX_PROBES);
-        (0..floor_index(count)).filter_map(move |k| {
-            #[expect(clippy::cast_precision_loss, reason = "at most MAX_PROBES")]
-            let t = (k as f64 + 0.5) / count;
-            let direction = tangent(&segment, t);
-            let normal = Vec2::new(-direction.y, direction.x).normalize();
-            normal.is_finite().then(|| (segment.eval(t), normal))
-        })
-    })
+/// Points evenly spread along an outline, which is followed within `tolerance`, with unit normals.
+fn probes(outline: &BezPath, tolerance: f64) -> Vec<(Point, Vec2)> {
+    let mut probes = Vec::new();
+    // Half a spacing before the first.
+    let mut since_last = 0.5 * PROBE_STEPS;
+    for contour in flatten(outline, tolerance) {
+        for ends in contour.windows(2) {
+            let along = ends[1] - ends[0];
+            let length = along.hypot();
+            let normal = Vec2::new(-along.y, along.x) / length;
+            let mut at = PROBE_STEPS - since_last;
+            while at < length && probes.len() < MAX_PROBES {
+                probes.push((ends[0] + along * (at / length), normal));
+                at += PROBE_STEPS;
+            }
+            since_last = length - (at - PROBE_STEPS);
+        }
+    }
+    probes
 }
 
 fn tangent(segment: &PathSeg, t: f64) -> Vec2 {
