@@ -12,7 +12,8 @@ use crate::{
     config::BakeConfig,
     drawing::{Drawing, FillRule, Item, ShapeSource, to_f32},
     grid::Lattice,
-    judge::{Coverage, Verdict, size_texels},
+    judge::{Coverage, size_texels},
+    patch::SHAPE_FEATURE,
     placed::{Placed, PlacedKind},
     prepare::Note,
     scales::Scales,
@@ -94,13 +95,15 @@ pub(crate) fn warnings(
     let mut warnings = std::mem::take(&mut drawing.warnings);
     for (item, placed) in drawing.items.iter().zip(placed) {
         if let (Item::Shape(shape), PlacedKind::Shape { note, verdict, .. }) = (item, placed.kind)
-            && let Some(message) = fallback(note, verdict)
+            && note == Note::Failed
+            && verdict.coverage == Coverage::Msdf
         {
             warnings.push(Warning {
                 code: WarningCode::PathFallback,
                 feature: "path".into(),
                 element: shape.element.clone(),
-                message: message.into(),
+                message: "overlaps in this outline could not be removed; its edges may be rough"
+                    .into(),
             });
         }
     }
@@ -123,17 +126,6 @@ pub(crate) fn warnings(
         });
     }
     warnings
-}
-
-/// What went wrong with an outline, if something did.
-fn fallback(note: Note, verdict: Verdict) -> Option<&'static str> {
-    if note == Note::Failed {
-        Some("overlaps in this outline could not be removed; its edges may be rough")
-    } else if verdict.finding == Finding::TooManySegments {
-        Some("this outline is too complex for curves; its edges are rough at high zoom")
-    } else {
-        None
-    }
 }
 
 /// The canvas' mips, if any, and the patches.
@@ -189,7 +181,13 @@ fn report((item, placed): (&Item, &Placed)) -> ShapeReport {
             field_error: verdict.error,
             ..report
         },
-        PlacedKind::Patch => report,
+        PlacedKind::Patch => ShapeReport {
+            finding: match item {
+                Item::Patch(patch) if patch.feature == SHAPE_FEATURE => Finding::TooManySegments,
+                _ => Finding::None,
+            },
+            ..report
+        },
     }
 }
 

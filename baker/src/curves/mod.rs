@@ -13,6 +13,9 @@
 mod clip;
 pub(crate) mod lower;
 pub(crate) mod record;
+pub(crate) mod split;
+#[cfg(test)]
+mod split_tests;
 pub(crate) mod sweep;
 #[cfg(test)]
 mod tests;

@@ -129,7 +129,8 @@ impl Extent {
             return Self::default();
         }
         let px = PIXELS_AT_ZOOM_1 * f64::from(max_zoom) / canvas.width().max(canvas.height());
-        let lowered = LoweredOutline::new(&(Affine::scale(px / UNIT_PX) * outline), TOLERANCE_UNITS);
+        let lowered =
+            LoweredOutline::new(&(Affine::scale(px / UNIT_PX) * outline), TOLERANCE_UNITS);
         let segments = lowered.map_or_else(|_| outline.segments().count(), |l| l.segments.len());
         #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
         let count = |n: usize| n as f64;

@@ -30,8 +30,9 @@ const SLIVER_SHARE: f64 = 0.1;
 const FLATTEST_SLOPE: f64 = 0.25;
 /// Where a shape or a gap in it is thinner than this many steps, its two edges share texels.
 const THIN_STEPS: f64 = 1.5;
-/// Errors nearer than this to a sharp corner are put down to it.
-const CUSP_REACH_STEPS: f64 = 1.5;
+/// Errors nearer than this to a sharp corner are put down to it: a corner of 20 degrees is thinner
+/// than [`THIN_STEPS`] as far as that.
+const CUSP_REACH_STEPS: f64 = 4.0;
 /// Cosine of the largest angle of a corner that counts as sharp: 30 degrees.
 const CUSP_COSINE: f64 = 0.866;
 
@@ -211,7 +212,8 @@ impl<'a> Field<'a> {
         let region = &self.placed.region;
         let is_inside = |s: f64| self.distance(p + s * inwards).map(|d| d > 0.0);
         let changes = |s: f64| is_inside(-s) == Some(false) && is_inside(s) == Some(true);
-        let spans = (1..=WALK_STEPS).map(|k| WALK_REACH_STEPS * f64::from(k) / f64::from(WALK_STEPS));
+        let spans =
+            (1..=WALK_STEPS).map(|k| WALK_REACH_STEPS * f64::from(k) / f64::from(WALK_STEPS));
         if let Some(span) = spans.clone().find(|&s| changes(s)) {
             return span;
         }
