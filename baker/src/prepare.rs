@@ -1,7 +1,7 @@
 //! Outlines made simple: after this, contours neither cross nor overlap and all run the same way
 //! round, so that distances to them have a sign and every fill rule gives the same answer.
 //!
-//! Order of attempts: linesweeper, which keeps curves; i_overlay, which is robust and flattens; the
+//! Order of attempts: linesweeper, which keeps curves; `i_overlay`, which is robust and flattens; the
 //! outline as drawn with its own fill rule. Each result is held against the drawing's winding
 //! before it is taken, so what goes wrong here costs a distance field its precision, never the
 //! picture its shape.

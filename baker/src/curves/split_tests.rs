@@ -194,7 +194,12 @@ fn a_scribble_of_fifty_thousand_segments_is_painted() {
 fn too_many_entries_are_refused() {
     let square = |k: u32| {
         let side = 0.3 + 1e-3 * f64::from(k % 7);
-        let color = [0.0, 0.0, f64::from(k % 250) as f32 / 250.0, 0.5];
+        let color = [
+            0.0,
+            0.0,
+            crate::drawing::to_f32(f64::from(k % 250) / 250.0),
+            0.5,
+        ];
         let outline = Rect::from_center_size(CELL.center(), (side, side)).to_path(0.1);
         shape(outline, FillRule::NonZero, color)
     };

@@ -7,7 +7,8 @@ use vtex_format::{Finding, VtexFile};
 use vtex_shaders::{PackOptions, cpu, pack};
 
 use super::{
-    Candidate, Coverage, PIXELS_AT_ZOOM_1, WRONG_SHARE_BOUND, judge, measure::measure, sizes,
+    Candidate, Coverage, PIXELS_AT_ZOOM_1, QUANTA, ROUNDING_QUANTA, WRONG_SHARE_BOUND, judge,
+    measure::measure, sizes,
 };
 use crate::{
     config::{BakeConfig, Mode},
@@ -112,8 +113,7 @@ fn dense_check(canvas_size: [f64; 2], shape: &Shape, config: &BakeConfig) -> Den
                 continue;
             }
             let inwards = if sides[0] { normal } else { -normal };
-            let off = displacement(&filled, p, inwards, step)
-                .unwrap_or_else(|| half_thickness(&truth, p, inwards, 2.0 * step));
+            let off = displacement(&filled, &truth, p, inwards, 2.0 * step);
             found.push(off / units_per_px);
             let q = p + random.within(-1.5, 1.5) * step * normal;
             let reach = config.error_px * units_per_px;
@@ -138,35 +138,22 @@ fn is_clear(truth: &Region, p: Point, reach: f64) -> bool {
     })
 }
 
-/// How far from `p` along `inwards`, either way, the picture changes; `None` where it does not.
+/// How far from the edge at `p` the picture changes: inwards where `p` is not filled, else outwards.
+/// An edge that vanished has met the next one, of the shape or of a gap in it, halfway.
 fn displacement(
     filled: &impl Fn(Point) -> bool,
+    truth: &Region,
     p: Point,
     inwards: Vec2,
-    step: f64,
-) -> Option<f64> {
-    let crosses = |low: f64, high: f64| !filled(p + low * inwards) && filled(p + high * inwards);
-    let spans = [0.05, 0.1, 0.2, 0.5, 1.0, 2.0].map(|s| s * step);
-    let span = *spans.iter().find(|&&s| crosses(-s, s))?;
-    let (mut low, mut high) = (-span, span);
-    for _ in 0..24 {
-        let middle = 0.5 * (low + high);
-        if filled(p + middle * inwards) {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    Some(low.abs())
-}
-
-/// An edge that vanished has met the opposite one, of the shape or of the gap beside it, halfway.
-fn half_thickness(truth: &Region, p: Point, inwards: Vec2, most: f64) -> f64 {
-    let ends = |s: f64| !truth.contains(p + s * inwards) || truth.contains(p - s * inwards);
-    let walk = (1..=400).map(|k| most * f64::from(k) / 400.0);
-    walk.into_iter()
-        .find(|&s| ends(s))
-        .map_or(most, |s| 0.5 * s)
+    most: f64,
+) -> f64 {
+    let grown = filled(p);
+    let along = if grown { -inwards } else { inwards };
+    let walk = || (1..=100).map(|k| most * (f64::from(k) / 100.0).powi(2));
+    let next = walk().find(|&s| truth.contains(p + s * along) == grown);
+    let end = next.map_or(most, |s| 0.5 * s);
+    let change = walk().find(|&s| filled(p + s * along) != grown);
+    change.map_or(end, |s| s.min(end))
 }
 
 fn samples() -> Vec<(&'static str, Drawing)> {
@@ -200,10 +187,11 @@ fn the_judge_is_right_about_real_shapes() {
                 ..config(zoom, error)
             };
             let candidate = Candidate::new(drawing, &config, config.mip0_size, size);
-            for item in drawing.items.iter().step_by(3) {
+            for item in drawing.items.iter().step_by(5) {
                 let Item::Shape(shape) = item else { continue };
                 let dense = dense_check(drawing.canvas_size, shape, &config);
-                if dense.probes < 100 {
+                // So that a p99 rests on five probes and more.
+                if dense.probes < 500 {
                     continue;
                 }
                 let longer = drawing.canvas_size[0].max(drawing.canvas_size[1]);
@@ -227,9 +215,10 @@ fn the_judge_is_right_about_real_shapes() {
         }
     }
     println!("{good} good, {bad} rejected, {in_vain} of them in vain");
-    // Probes right at a needle's tip see what probes at random places miss.
-    assert!(in_vain * 20 <= bad, "{in_vain} of {bad}");
-    let enough = good > 30 && bad > 100;
+    // A field rejected in vain costs bytes, not looks: needles whose tips evenly spread probes meet
+    // and random ones miss.
+    assert!(in_vain * 10 <= bad, "{in_vain} of {bad}");
+    let enough = good > 20 && bad > 40;
     assert!(samples.is_empty() || enough, "{good} good, {bad} bad");
 }
 
@@ -428,4 +417,28 @@ fn sizes_double_and_add_half() {
     assert_eq!(sizes(200), [32, 48, 64, 96, 128, 192, 200]);
     assert_eq!(sizes(192), [32, 48, 64, 96, 128, 192]);
     assert_eq!(sizes(16), [16]);
+}
+
+/// Sizes are passed over where rounding alone is beyond the bound: what it does to straight edges
+/// at every angle is never less than what the rule assumes.
+#[test]
+fn rounding_alone_costs_what_the_rule_says() {
+    let mut least = f64::INFINITY;
+    let mut random = Random(2);
+    for k in 0..60 {
+        let turn = kurbo::Affine::rotate_about(0.013 + 0.026 * f64::from(k), (50.0, 50.0));
+        let corner = (random.within(20.0, 30.0), random.within(20.0, 30.0));
+        let square = turn * Rect::from_origin_size(corner, (45.0, 45.0)).to_path(0.1);
+        let drawing = drawing(100.0, vec![shape(square, FillRule::NonZero, BLACK)]);
+        let Item::Shape(shape) = &drawing.items[0] else {
+            unreachable!("a shape")
+        };
+        let config = config(64.0, 0.01);
+        let candidate = Candidate::new(&drawing, &config, 512, 256);
+        let placed = place_prepared(&prepare(shape, 100.0), &candidate.lattice);
+        let quantum_px = candidate.scales.range / QUANTA * candidate.px_per_step;
+        least = least.min(measure(&placed, &candidate).p99_px / quantum_px);
+    }
+    println!("{least:.3} quanta");
+    assert!(least >= ROUNDING_QUANTA, "{least}");
 }

@@ -34,7 +34,7 @@ pub(super) fn by_sweep(outline: &BezPath, rule: FillRule) -> Option<BezPath> {
     Some(simple)
 }
 
-/// i_overlay: exact on integers, flattens first.
+/// `i_overlay`: exact on integers, flattens first.
 pub(super) fn by_overlay(outline: &BezPath, rule: FillRule) -> Option<BezPath> {
     let contours: Vec<Vec<[f64; 2]>> = flatten(outline, FLATTEN_EPS)
         .into_iter()

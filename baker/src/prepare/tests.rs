@@ -2,9 +2,14 @@
 
 use kurbo::{BezPath, Line, Point, Rect, Shape as _};
 
+use vtex_format::{Preparation, WarningCode};
+use vtex_shaders::{PackOptions, cpu, pack};
+
 use super::{Method, Note, Prepared, by_overlay, by_sweep, clean, prepare, prepare_by};
 use crate::{
-    drawing::{FillRule, Item, Shape},
+    config::{BakeConfig, Mode},
+    drawing::{Drawing, FillRule, Item, Shape},
+    encode::assemble,
     geometry::{Region, flatten_segment, line_box_distance},
     testing::{Random, random_outline, shape},
 };
@@ -311,4 +316,46 @@ fn segments_after_a_closed_contour_start_at_its_start() {
     let expected = "M10 10H20V20L10 10ZM10 10H0V0L10 10Z";
     let expected = clean(&BezPath::from_svg(expected).unwrap(), CANVAS);
     assert_eq!(cleaned, expected);
+}
+
+/// Too long for any method: baked as drawn, with a report and a warning, and the picture is right.
+#[test]
+fn what_cannot_be_prepared_is_baked_as_drawn() {
+    let mut outline = BezPath::new();
+    for k in 0..20_100 {
+        let turn = 2.0 * std::f64::consts::TAU * f64::from(k) / 20_100.0;
+        let p = Point::new(50.0, 50.0) + 40.0 * kurbo::Vec2::from_angle(turn);
+        if k == 0 {
+            outline.move_to(p);
+        } else {
+            outline.line_to(p);
+        }
+    }
+    outline.close_path();
+    let drawing = Drawing {
+        canvas_size: [CANVAS; 2],
+        items: vec![shape(outline, FillRule::NonZero, [0.0, 0.0, 0.0, 1.0])],
+        warnings: Vec::new(),
+    };
+    let config = BakeConfig {
+        mode: Mode::Msdf,
+        msdf_size: 256,
+        ..BakeConfig::default()
+    };
+    let file = assemble(drawing, None, &config, [0; 32], &|_| ()).unwrap();
+    let provenance = file.provenance.as_ref().unwrap();
+    assert_eq!(provenance.shapes[0].preparation, Preparation::Failed);
+    assert_eq!(provenance.warnings[0].code, WarningCode::PathFallback);
+    let words = pack(&file, &PackOptions::default());
+    let sampler = cpu::Sampler::new(&words);
+    let mut random = Random(1);
+    for _ in 0..2000 {
+        let p = Point::new(random.within(0.0, CANVAS), random.within(0.0, CANVAS));
+        let radius = (p - Point::new(50.0, 50.0)).hypot();
+        if (radius - 40.0).abs() > 0.3 {
+            let uv = [p.x / CANVAS, p.y / CANVAS].map(crate::drawing::to_f32);
+            let filled = sampler.sample(uv, [0.0; 4])[3] > 0.5;
+            assert_eq!(filled, radius < 40.0, "{p}");
+        }
+    }
 }
