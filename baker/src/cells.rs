@@ -147,8 +147,8 @@ fn draft_cell<'a>(
         std::cmp::Reverse((input.packing.ranks[index], paint, item))
     });
     let mut drafts: Vec<Draft<'a>> = Vec::new();
-    for (item, full) in items {
-        let draft = draft_item(input, item, full, cell);
+    let items = items.into_iter();
+    for draft in items.flat_map(|(item, full)| draft_item(input, item, full, cell)) {
         let opaque_full = matches!(draft, Draft::Full { paint } if paints.is_opaque(paint));
         let merged = match drafts.last_mut() {
             Some(front) => merge(front, &draft, free, paints),
@@ -164,30 +164,36 @@ fn draft_cell<'a>(
     drafts
 }
 
-fn draft_item<'a>(input: &CellInput<'a>, item: u32, full: bool, cell: u32) -> Draft<'a> {
+/// The entries of one item: one, but for curves that a record is too small for.
+fn draft_item<'a>(input: &CellInput<'a>, item: u32, full: bool, cell: u32) -> Vec<Draft<'a>> {
     let index = item as usize;
     let paint = input.paint_or_image[index];
     if !input.placed[index].is_shape() {
-        return Draft::Image { image: paint };
+        return vec![Draft::Image { image: paint }];
     }
     if full {
-        return Draft::Full { paint };
+        return vec![Draft::Full { paint }];
     }
     let rank = input.packing.ranks[index];
-    if let Some(part) = input.covers[index].curves_in(cell) {
+    let parts = input.covers[index].curves_in(cell);
+    if !parts.is_empty() {
         let rule = input.placed[index].rule;
-        return Draft::Curves(CurvesDraft {
-            paint,
-            rank,
-            rule,
-            // Every part fits a record of its own, or the shape would not be curves.
-            words: encode_record(&[part], rule).unwrap_or_default(),
-            parts: vec![part],
-            source: SourceRecord {
-                cell,
-                outlines: vec![item],
-            },
-        });
+        let source = SourceRecord {
+            cell,
+            outlines: vec![item],
+        };
+        let draft = |part| {
+            Draft::Curves(CurvesDraft {
+                paint,
+                rank,
+                rule,
+                // Every part fits a record of its own, or the shape would not be curves.
+                words: encode_record(&[part], rule).unwrap_or_default(),
+                parts: vec![part],
+                source: source.clone(),
+            })
+        };
+        return parts.iter().map(draft).collect();
     }
     let layer = input.layer_of_rank[rank as usize];
     let tile = TileDraft {
@@ -195,7 +201,7 @@ fn draft_item<'a>(input: &CellInput<'a>, item: u32, full: bool, cell: u32) -> Dr
         cell,
         items: vec![item],
     };
-    Draft::Tile { paint, tile }
+    vec![Draft::Tile { paint, tile }]
 }
 
 /// Takes `back` into `front` where one entry can stand for both. `apart` says that members of a

@@ -2,7 +2,7 @@
 
 use kurbo::Affine;
 use rayon::prelude::*;
-use vtex_format::{CurveLattice, SourceOutline, cut::CellCurves};
+use vtex_format::{CurveLattice, SourceOutline, Warning, WarningCode, cut::CellCurves};
 
 use crate::{
     classify::{ShapeCells, classify},
@@ -10,12 +10,14 @@ use crate::{
         CurveError,
         lower::LoweredOutline,
         record::encode_record,
+        split::split,
         sweep::{CutParams, cut_to_cells},
     },
-    drawing::{Drawing, to_f32},
+    drawing::{Drawing, Item, Patch, to_f32},
     geometry::floor_index,
     grid::Lattice,
-    judge::{Coverage, PIXELS_AT_ZOOM_1, Reason, Verdict},
+    judge::{Coverage, PIXELS_AT_ZOOM_1, Verdict},
+    patch::{self, PatchSettings},
     placed::{Placed, PlacedKind, place_item},
     scales::Scales,
     sources::source_outline,
@@ -31,22 +33,35 @@ const MIN_UNITS_PER_CELL: usize = 1024;
 /// No tolerance is smaller: a unit is what rounding costs.
 const MIN_TOLERANCE_UNITS: f64 = 0.5;
 
+/// Segments of one shape in one cell; more would leave no room in the cell's list.
+const MAX_CELL_SEGMENTS: usize = vtex_format::MAX_LIST_ITEMS as usize * 3 / 4;
+
 /// An item against the grid.
 #[derive(Debug, Default)]
 pub(crate) struct Cover {
     /// Where it is listed; without edges for tiles unless it has a distance field.
     pub(crate) cells: ShapeCells,
-    /// Its outline in each cell that lists it, if it is curves.
+    /// Its outline in the cells that list it, cell by cell, if it is curves.
     pub(crate) curves: Vec<CellCurves>,
     /// The whole outline as the file stores it, if it is curves and the lattice holds it.
     pub(crate) source: Option<SourceOutline>,
+    /// Where each listed cell's part of `curves` begins; empty where each has one.
+    firsts: Vec<u32>,
 }
 
 impl Cover {
-    /// Its outline in `cell`.
-    pub(crate) fn curves_in(&self, cell: u32) -> Option<&CellCurves> {
-        let index = self.cells.listed.binary_search(&cell).ok()?;
-        self.curves.get(index)
+    /// Its outline in `cell`: strips that add up to it, most often one. Empty unless it is curves.
+    pub(crate) fn curves_in(&self, cell: u32) -> &[CellCurves] {
+        let Ok(index) = self.cells.listed.binary_search(&cell) else {
+            return &[];
+        };
+        let first_of = |index: usize| match self.firsts.get(index) {
+            Some(&first) => first as usize,
+            None if self.firsts.is_empty() => index,
+            None => self.curves.len(),
+        };
+        let range = first_of(index)..first_of(index + 1);
+        self.curves.get(range).unwrap_or(&[])
     }
 }
 
@@ -87,42 +102,69 @@ pub(crate) fn curve_lattice(
     })
 }
 
-/// Covers every item; what cannot be curves becomes a distance field in `placed`.
+/// Covers every item; an error where a shape cannot be curves.
 pub(crate) fn cover(
-    placed: &mut [Placed],
-    drawing: &Drawing,
+    placed: &[Placed],
     lattice: &Lattice,
     scales: &Scales,
     max_zoom: f32,
-) -> Vec<Cover> {
+) -> Vec<Result<Cover, CurveError>> {
     let cutter = curve_lattice(placed, lattice, scales, max_zoom)
         .map(|curve_lattice| Cutter::new(lattice, curve_lattice, max_zoom));
-    let longer = drawing.canvas_size[0].max(drawing.canvas_size[1]);
-    let cover_one = |(placed, item)| {
-        let placed: &mut Placed = placed;
+    let cover_one = |placed: &Placed| {
         if !placed.is_shape() {
-            return Cover::default();
+            return Ok(Cover::default());
         }
         if let (true, Some(cutter)) = (placed.is_curves(), &cutter) {
-            if let Ok(cover) = cutter.cut(placed) {
-                return cover;
-            }
-            let verdict = Verdict {
-                coverage: Coverage::Msdf,
-                reason: Reason::TooComplex,
-            };
-            *placed = place_item(item, lattice, longer, verdict);
+            return cutter.cut(placed);
         }
-        Cover {
+        Ok(Cover {
             cells: classify(placed, lattice, scales.distances),
             ..Cover::default()
-        }
+        })
     };
-    placed
-        .par_iter_mut()
-        .zip(&drawing.items)
-        .map(cover_one)
-        .collect()
+    placed.par_iter().map(cover_one).collect()
+}
+
+/// Puts patches in the place of shapes that cannot be curves.
+pub(crate) fn patch_failures(
+    covers: Vec<Result<Cover, CurveError>>,
+    drawing: &mut Drawing,
+    placed: &mut [Placed],
+    lattice: &Lattice,
+    settings: PatchSettings,
+) -> Vec<Cover> {
+    let failures = covers.iter().filter(|cover| cover.is_err()).count();
+    #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
+    let share = 1.0 / failures.max(1) as f64;
+    let longer = drawing.canvas_size[0].max(drawing.canvas_size[1]);
+    let items = drawing.items.iter_mut().zip(placed);
+    let mut resolved = Vec::with_capacity(covers.len());
+    for (cover, (item, placed)) in covers.into_iter().zip(items) {
+        resolved.push(cover.unwrap_or_else(|_| {
+            // A shape of which nothing shows is listed nowhere.
+            if let Some(patch) = patch::of_shape(item, settings, share) {
+                drawing.warnings.push(failure_warning(&patch));
+                *item = Item::Patch(patch);
+                *placed = place_item(item, lattice, longer, Verdict::forced(Coverage::Msdf));
+            }
+            Cover::default()
+        }));
+    }
+    resolved
+}
+
+fn failure_warning(patch: &Patch) -> Warning {
+    let [width, height] = patch.image.size;
+    Warning {
+        code: WarningCode::PathFallback,
+        feature: patch.feature.clone(),
+        element: patch.element.clone(),
+        message: format!(
+            "this outline is too complex for curves; it is stored as a raster of {width} x {height} \
+             texels"
+        ),
+    }
 }
 
 /// Cuts outlines to cells.
@@ -156,15 +198,39 @@ impl Cutter {
             }
         }
         let mut curves = Vec::with_capacity(shape.edges.len());
+        let mut firsts = Vec::new();
+        // Strips of a cell are not what the reader would cut.
+        let mut whole = true;
+        let size = f64::from(self.params.lattice.box_units());
         for (cell, cell_curves) in shape.edges {
-            encode_record(&[&cell_curves], placed.rule)?;
+            firsts.push(u32::try_from(curves.len()).map_err(|_| CurveError::Overflow)?);
+            let segments = cell_curves.segments.len();
+            let parts = match encode_record(&[&cell_curves], placed.rule) {
+                Ok(_) => vec![cell_curves],
+                Err(_) => {
+                    whole = false;
+                    split(cell_curves, placed.rule, size)?
+                }
+            };
+            // A list has room for one such shape.
+            if segments > MAX_CELL_SEGMENTS {
+                return Err(CurveError::Overflow);
+            }
+            for part in &parts {
+                encode_record(&[part], placed.rule)?;
+            }
             cells.listed.push(cell);
-            curves.push(cell_curves);
+            curves.extend(parts);
+        }
+        let source = source.filter(|_| whole);
+        if curves.len() == cells.listed.len() {
+            firsts = Vec::new();
         }
         Ok(Cover {
             cells,
             curves,
             source,
+            firsts,
         })
     }
 }

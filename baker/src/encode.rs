@@ -8,13 +8,14 @@ use vtex_shaders::{SpecParts, shader_blob, spec_key_from_parts};
 use crate::{
     cells::{CellInput, CellLists, build_cells},
     config::{BakeConfig, Stage},
-    cover::{cover, curve_lattice, flatness_units},
+    cover::{cover, curve_lattice, flatness_units, patch_failures},
     drawing::Drawing,
     error::BakeError,
     grid::Lattice,
-    judge::{all_curves, judge},
+    judge::{Judgement, all_curves, judge},
     msdf::{TileShape, TileSpec, render_tile},
     paint_table::PaintTable,
+    patch::PatchSettings,
     placed::{Placed, PlacedKind, place},
     records,
     scales::Scales,
@@ -38,15 +39,24 @@ pub(crate) fn assemble(
     let mip0_size = mips
         .as_ref()
         .map_or(config.mip0_size, |image| image.size[0].max(image.size[1]));
-    let verdicts = judge(&drawing, config, mip0_size);
+    let Judgement {
+        verdicts,
+        msdf_size,
+    } = judge(&drawing, config, mip0_size);
     let lattice = if all_curves(&drawing, &verdicts) {
-        Lattice::for_curves(drawing.canvas_size, config.msdf_size, mip0_size)
+        Lattice::for_curves(drawing.canvas_size, msdf_size, mip0_size)
     } else {
-        Lattice::new(drawing.canvas_size, config.msdf_size)
+        Lattice::new(drawing.canvas_size, msdf_size)
     };
     let scales = Scales::new(config, &lattice, mip0_size);
     let mut placed = place(&drawing, &lattice, &verdicts);
-    let covers = cover(&mut placed, &drawing, &lattice, &scales, config.max_zoom);
+    let covers = cover(&placed, &lattice, &scales, config.max_zoom);
+    let settings = PatchSettings {
+        canvas_size: drawing.canvas_size,
+        mip0_size: config.mip0_size,
+        max_zoom: f64::from(config.max_zoom),
+    };
+    let covers = patch_failures(covers, &mut drawing, &mut placed, &lattice, settings);
 
     observer(Stage::Pack);
     let packing = pack_items(&placed, &lattice, &scales, config.merge);

@@ -30,6 +30,9 @@ const MAX_PATTERN_TEXELS: f64 = 67_108_864.0;
 /// resvg bounds a layer to this multiple of its pixmap, each way.
 const LAYER_OVERHANG: f64 = 5.0;
 
+/// What a shape is called that is a patch because it is too much for curve records.
+pub(crate) const SHAPE_FEATURE: &str = "path";
+
 /// How patches are made for one drawing.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PatchSettings {
@@ -110,6 +113,33 @@ pub(crate) fn whole_canvas(
         feature: "raster".to_owned(),
         element: String::new(),
     })
+}
+
+/// One shape as a patch, within its `share` of what patches may take; `None` when nothing of it
+/// shows.
+pub(crate) fn of_shape(item: &Item, settings: PatchSettings, share: f64) -> Option<Patch> {
+    let Item::Shape(shape) = item else {
+        return None;
+    };
+    let bounds = shape.outline.control_box().intersect(settings.canvas());
+    let texels = bounds.area() * settings.base_scale().powi(2);
+    let density = settings
+        .finest_density()
+        .min(settings.density_for_side(bounds))
+        .min((share * MAX_PATCH_TEXELS / texels.max(1.0)).sqrt());
+    let lattice = settings.lattice(density);
+    let window = settings.window(bounds, lattice);
+    let view = settings.view(window, lattice);
+    let mut pixmap = raster::picture(std::slice::from_ref(item), view)?;
+    clear_border(&mut pixmap, window, lattice);
+    let shown = shown_part(&pixmap, window, lattice)?;
+    Some(settings.patch(
+        &pixmap,
+        window,
+        shown,
+        lattice,
+        [SHAPE_FEATURE, &shape.element],
+    ))
 }
 
 enum Painted<'a> {
@@ -278,7 +308,7 @@ impl PatchSettings {
         clear_border(&mut pixmap, window, lattice);
         match shown_part(&pixmap, window, lattice) {
             Some(shown) => Outcome::Patch(
-                self.patch(&pixmap, window, shown, lattice, subtree),
+                self.patch(&pixmap, window, shown, lattice, subtree.names()),
                 density,
             ),
             None => Outcome::Nothing,
@@ -312,7 +342,7 @@ impl PatchSettings {
             }
             clear_border(&mut pixmap, window, lattice);
             return Outcome::Patch(
-                self.patch(&pixmap, window, window, lattice, subtree),
+                self.patch(&pixmap, window, window, lattice, subtree.names()),
                 regional,
             );
         }
@@ -327,9 +357,10 @@ impl PatchSettings {
         };
         items.clear();
         match shown_part(&pixmap, window, lattice) {
-            Some(shown) => {
-                Outcome::Patch(self.patch(&pixmap, window, shown, lattice, subtree), whole)
-            }
+            Some(shown) => Outcome::Patch(
+                self.patch(&pixmap, window, shown, lattice, subtree.names()),
+                whole,
+            ),
             None => Outcome::Nothing,
         }
     }
@@ -341,7 +372,7 @@ impl PatchSettings {
         window: Window,
         shown: Window,
         lattice: [u32; 2],
-        subtree: &Subtree<'_>,
+        [feature, element]: [&str; 2],
     ) -> Patch {
         let level0 = cropped(pixmap, window, shown);
         let uv = |texel: u32, axis: usize| f64::from(texel) / f64::from(lattice[axis]);
@@ -355,9 +386,16 @@ impl PatchSettings {
         Patch {
             rect: Rect::new(left * width, top * height, right * width, bottom * height),
             image: mips::chain(level0, [left, top, right, bottom].map(narrow)),
-            feature: subtree.feature.to_owned(),
-            element: subtree.element.clone(),
+            feature: feature.to_owned(),
+            element: element.to_owned(),
         }
+    }
+}
+
+impl Subtree<'_> {
+    /// Feature and element.
+    fn names(&self) -> [&str; 2] {
+        [self.feature, &self.element]
     }
 }
 

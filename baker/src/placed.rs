@@ -71,6 +71,17 @@ pub(crate) fn place(drawing: &Drawing, lattice: &Lattice, verdicts: &[Verdict]) 
         .collect()
 }
 
+/// A prepared outline by itself, for judging.
+pub(crate) fn place_prepared(prepared: &Prepared, lattice: &Lattice) -> Placed {
+    let kind = PlacedKind::Shape {
+        color: [0.0, 0.0, 0.0, 1.0],
+        note: prepared.note,
+        verdict: Verdict::forced(Coverage::Msdf),
+    };
+    let outline = lattice.lattice_from_canvas * &prepared.outline;
+    Placed::new(outline, prepared.rule, kind)
+}
+
 /// Prepares and places one item of a drawing whose longer side is `canvas_longer` units.
 pub(crate) fn place_item(
     item: &Item,
@@ -85,9 +96,9 @@ pub(crate) fn place_item(
                 // Windings take care of overlaps, and an edge that two shapes share must stay
                 // the same in both.
                 Coverage::Curves => Prepared {
-                    outline: clean(&shape.outline),
+                    outline: clean(&shape.outline, canvas_longer),
                     rule: shape.fill_rule,
-                    note: Note::Plain,
+                    note: Note::AsDrawn,
                 },
             };
             let kind = PlacedKind::Shape {

@@ -1,26 +1,36 @@
 //! Outlines made simple: after this, contours neither cross nor overlap and all run the same way
 //! round, so that distances to them have a sign and every fill rule gives the same answer.
+//!
+//! Order of attempts: linesweeper, which keeps curves; `i_overlay`, which is robust and flattens; the
+//! outline as drawn with its own fill rule. Each result is held against the drawing's winding
+//! before it is taken, so what goes wrong here costs a distance field its precision, never the
+//! picture its shape.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
-
-use kurbo::{Affine, BezPath, CubicBez, Line, PathEl, PathSeg, Point, QuadBez, Shape as _};
-use linesweeper::topology::Topology;
+use kurbo::{
+    Affine, BezPath, CubicBez, Line, ParamCurve, PathEl, PathSeg, Point, QuadBez, Shape as _,
+};
 
 use crate::{
     drawing::{FillRule, Shape},
-    geometry::{Region, flatten, line_line_distance},
+    geometry::clamp_outline,
 };
+
+mod simplify;
+#[cfg(test)]
+mod tests;
+mod verify;
+
+use simplify::{Method, by_overlay, by_sweep};
+use verify::agrees;
 
 /// Longer side of the canvas in the units that simplification works in.
 const SIMPLIFY_SIZE: f64 = 1024.0;
-/// How far simplification may move an edge, in those units. Measured: smaller values cost time and
-/// bring slivers, larger ones show at 64x.
-const SIMPLIFY_EPS: f64 = 1e-4;
 /// Segments beyond which a path is not simplified: crossings may grow with the square. Such a path
 /// keeps its outline and its fill rule.
 const MAX_SIMPLIFY_SEGMENTS: usize = 20_000;
-/// Points at which a simplified outline must agree with the original.
-const CHECK_POINTS: u32 = 64;
+/// Canvases from the origin beyond which a point is moved to this distance, in a way that changes
+/// nothing nearer. Coordinates of curve lattices have room for 2^17.
+const FARTHEST_CANVASES: f64 = 4096.0;
 
 /// An outline ready for packing, cells and distance fields.
 #[derive(Clone, Debug)]
@@ -37,57 +47,78 @@ pub(crate) struct Prepared {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Note {
     /// Nothing that shows.
-    Plain,
+    AsDrawn,
     /// Overlaps were removed.
     Simplified,
-    /// Simplification failed or disagreed; the outline is as drawn.
-    Fallback,
-}
-
-impl Note {
-    /// As recorded in the file.
-    pub(crate) fn text(self) -> &'static str {
-        match self {
-            Self::Plain => "",
-            Self::Simplified => "simplified",
-            Self::Fallback => "fallback",
-        }
-    }
+    /// The first method failed or disagreed, the second removed the overlaps.
+    SecondMethod,
+    /// No method agreed; the outline and its rule are as drawn.
+    Failed,
 }
 
 /// Prepares `shape` on a canvas whose longer side is `canvas_longer` units.
 pub(crate) fn prepare(shape: &Shape, canvas_longer: f64) -> Prepared {
+    prepare_by(&[by_sweep, by_overlay], shape, canvas_longer)
+}
+
+/// As [`prepare`], by the first of `methods` that agrees with the drawing.
+fn prepare_by(methods: &[Method], shape: &Shape, canvas_longer: f64) -> Prepared {
     let scale = SIMPLIFY_SIZE / canvas_longer;
-    let mut outline = clean(&shape.outline);
-    outline.apply_affine(Affine::scale(scale));
-    let (mut outline, rule, note) = match simplify(&outline, shape.fill_rule) {
-        Some(simple) => {
-            // Overlaps change the signed area, so equal areas mean that there were none.
-            let change = (simple.area().abs() - outline.area().abs()).abs();
-            let plain = change <= 1e-2 + 1e-6 * simple.area().abs();
-            let note = if plain { Note::Plain } else { Note::Simplified };
-            (simple, FillRule::NonZero, note)
-        }
-        None => (outline, shape.fill_rule, Note::Fallback),
+    let drawn = clean(&shape.outline, canvas_longer);
+    let scaled = Affine::scale(scale) * &drawn;
+    let Some((index, simple)) = first_that_agrees(methods, &scaled, shape.fill_rule) else {
+        return Prepared {
+            outline: drawn,
+            rule: shape.fill_rule,
+            note: Note::Failed,
+        };
     };
-    outline.apply_affine(Affine::scale(1.0 / scale));
+    // Overlaps change the signed area, so equal areas mean that there were none.
+    let change = (simple.area().abs() - scaled.area().abs()).abs();
+    let plain = change <= 1e-2 + 1e-6 * simple.area().abs();
     Prepared {
-        outline,
-        rule,
-        note,
+        outline: Affine::scale(1.0 / scale) * simple,
+        rule: FillRule::NonZero,
+        note: match (index, plain) {
+            (0, true) => Note::AsDrawn,
+            (0, false) => Note::Simplified,
+            _ => Note::SecondMethod,
+        },
     }
 }
 
-/// Closes every contour and leaves out contours with a non-finite point, empty segments and
-/// handles of no length.
-pub(crate) fn clean(outline: &BezPath) -> BezPath {
+fn first_that_agrees(
+    methods: &[Method],
+    outline: &BezPath,
+    rule: FillRule,
+) -> Option<(usize, BezPath)> {
+    if outline.elements().is_empty() {
+        return Some((0, BezPath::new()));
+    }
+    if outline.elements().len() > MAX_SIMPLIFY_SEGMENTS {
+        return None;
+    }
+    let results = methods.iter().enumerate();
+    results
+        .filter_map(|(index, method)| Some((index, clean_contours(&method(outline, rule)?))))
+        .find(|(_, simple)| agrees(outline, rule, simple))
+}
+
+/// Closes every contour, moves what is absurdly far away nearer, and leaves out contours with a
+/// non-finite point, empty segments and handles of no length. The canvas' longer side is
+/// `canvas_longer` units.
+pub(crate) fn clean(outline: &BezPath, canvas_longer: f64) -> BezPath {
+    clamp_outline(&clean_contours(outline), FARTHEST_CANVASES * canvas_longer)
+}
+
+fn clean_contours(outline: &BezPath) -> BezPath {
     let mut cleaned = BezPath::new();
     for contour in contours(outline) {
         let segments: Vec<PathSeg> = contour.segments().filter_map(straighten).collect();
         let (Some(first), Some(last)) = (segments.first(), segments.last()) else {
             continue;
         };
-        let (start, end) = (start_of(first), end_of(last));
+        let (start, end) = (first.start(), last.end());
         if !contour.is_finite() {
             continue;
         }
@@ -103,26 +134,23 @@ pub(crate) fn clean(outline: &BezPath) -> BezPath {
 
 fn contours(outline: &BezPath) -> Vec<BezPath> {
     let mut contours: Vec<BezPath> = Vec::new();
+    let mut start = Point::ZERO;
     for element in outline.elements() {
-        if matches!(element, PathEl::MoveTo(_)) || contours.is_empty() {
+        if let PathEl::MoveTo(p) = element {
+            start = *p;
             contours.push(BezPath::new());
         }
-        if let Some(contour) = contours.last_mut() {
-            let started = !contour.elements().is_empty();
-            if started || matches!(element, PathEl::MoveTo(_)) {
-                contour.push(*element);
-            }
+        let Some(contour) = contours.last_mut() else {
+            continue;
+        };
+        // After a closed contour the next goes on from its start (SVG 2 sec. 9.3.4).
+        if matches!(contour.elements().last(), Some(PathEl::ClosePath)) {
+            contours.push(BezPath::from_vec(vec![PathEl::MoveTo(start), *element]));
+        } else {
+            contour.push(*element);
         }
     }
     contours
-}
-
-fn start_of(segment: &PathSeg) -> Point {
-    kurbo::ParamCurve::start(segment)
-}
-
-fn end_of(segment: &PathSeg) -> Point {
-    kurbo::ParamCurve::end(segment)
 }
 
 /// The simplest segment with the same trace; `None` for a point.
@@ -140,66 +168,5 @@ fn straighten(segment: PathSeg) -> Option<PathSeg> {
         PathSeg::Line(l) if l.p0 == l.p1 => None,
         PathSeg::Cubic(c) if c.p0 == c.p1 && c.p0 == c.p2 && c.p0 == c.p3 => None,
         other => Some(other),
-    }
-}
-
-/// The boundary of the filled region; `None` when that cannot be had.
-fn simplify(outline: &BezPath, rule: FillRule) -> Option<BezPath> {
-    if outline.elements().is_empty() {
-        return Some(BezPath::new());
-    }
-    if outline.elements().len() > MAX_SIMPLIFY_SEGMENTS {
-        return None;
-    }
-    // linesweeper is exact in intent but young: a panic costs one shape its simplification.
-    let contours = catch_unwind(AssertUnwindSafe(|| {
-        Topology::<i32>::from_path(outline, SIMPLIFY_EPS)
-            .ok()
-            .map(|topology| topology.contours(|winding| rule.fills(*winding)))
-    }))
-    .ok()??;
-    let mut simple = BezPath::new();
-    for contour in contours.contours() {
-        simple.extend(contour.path.elements().iter().copied());
-    }
-    let simple = clean(&simple);
-    agrees(outline, rule, &simple).then_some(simple)
-}
-
-/// Whether both outlines fill the same of [`CHECK_POINTS`] points, those on an edge aside.
-fn agrees(outline: &BezPath, rule: FillRule, simple: &BezPath) -> bool {
-    let before = Region::new(outline, rule);
-    let after = Region::new(simple, FillRule::NonZero);
-    let area = before.bounds();
-    let mut points = PointSequence::default();
-    (0..CHECK_POINTS).all(|_| {
-        let [u, v] = points.next();
-        let p = Point::new(area.x0 + u * area.width(), area.y0 + v * area.height());
-        before.contains(p) == after.contains(p) || near_edge(outline, p)
-    })
-}
-
-fn near_edge(outline: &BezPath, p: Point) -> bool {
-    let point = Line::new(p, p);
-    flatten(outline, SIMPLIFY_EPS).iter().any(|contour| {
-        contour.windows(2).any(|ends| {
-            line_line_distance(Line::new(ends[0], ends[1]), point) < 10.0 * SIMPLIFY_EPS
-        })
-    })
-}
-
-/// The additive recurrence R2 of Roberts (2018): evenly spread, the same every time.
-#[derive(Debug, Default)]
-struct PointSequence {
-    index: f64,
-}
-
-impl PointSequence {
-    fn next(&mut self) -> [f64; 2] {
-        self.index += 1.0;
-        [
-            (0.754_877_666_246_692_8 * self.index).fract(),
-            (0.569_840_290_998_053_3 * self.index).fract(),
-        ]
     }
 }

@@ -3,8 +3,8 @@
 use kurbo::{Rect, Shape as _};
 use vtex_format::{
     COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CurveLattice, FILL_EVEN_ODD, FILL_NON_ZERO,
-    Image, Meta, Outline, Provenance, SamplerSettings, ShapeRecord, ShapeReport, Warning,
-    WarningCode,
+    Finding, Image, Meta, Outline, Preparation, Provenance, SamplerSettings, ShapeRecord,
+    ShapeReport, Warning, WarningCode,
 };
 
 use crate::{
@@ -12,7 +12,8 @@ use crate::{
     config::BakeConfig,
     drawing::{Drawing, FillRule, Item, ShapeSource, to_f32},
     grid::Lattice,
-    judge::{Coverage, Reason, Verdict},
+    judge::{Coverage, size_texels},
+    patch::SHAPE_FEATURE,
     placed::{Placed, PlacedKind},
     prepare::Note,
     scales::Scales,
@@ -94,13 +95,15 @@ pub(crate) fn warnings(
     let mut warnings = std::mem::take(&mut drawing.warnings);
     for (item, placed) in drawing.items.iter().zip(placed) {
         if let (Item::Shape(shape), PlacedKind::Shape { note, verdict, .. }) = (item, placed.kind)
-            && let Some(message) = fallback(note, verdict)
+            && note == Note::Failed
+            && verdict.coverage == Coverage::Msdf
         {
             warnings.push(Warning {
                 code: WarningCode::PathFallback,
                 feature: "path".into(),
                 element: shape.element.clone(),
-                message: message.into(),
+                message: "overlaps in this outline could not be removed; its edges may be rough"
+                    .into(),
             });
         }
     }
@@ -125,17 +128,6 @@ pub(crate) fn warnings(
     warnings
 }
 
-/// What went wrong with an outline, if something did.
-fn fallback(note: Note, verdict: Verdict) -> Option<&'static str> {
-    if note == Note::Fallback {
-        Some("overlaps in this outline could not be removed; its edges may be rough")
-    } else if verdict.reason == Reason::TooComplex {
-        Some("this outline is too complex for curves; its edges are rough at high zoom")
-    } else {
-        None
-    }
-}
-
 /// The canvas' mips, if any, and the patches.
 pub(crate) fn images(drawing: Drawing, mips: Option<Image>) -> Vec<Image> {
     let patches = drawing.items.into_iter().filter_map(|item| match item {
@@ -153,33 +145,58 @@ pub(crate) fn provenance(
     source_hash: [u8; 32],
     warnings: Vec<Warning>,
 ) -> Provenance {
-    let report = |(item, placed): (&Item, &Placed)| match item {
-        Item::Shape(shape) => ShapeReport {
-            element: shape.element.clone(),
-            source: match shape.source {
-                ShapeSource::Fill => "fill".into(),
-                ShapeSource::Stroke => "stroke".into(),
-            },
-            note: match placed.kind {
-                PlacedKind::Shape { note, verdict, .. } => match note.text() {
-                    "" => verdict.text(),
-                    note => format!("{note}; {}", verdict.text()),
-                },
-                PlacedKind::Patch => String::new(),
-            },
-        },
-        Item::Patch(patch) => ShapeReport {
-            element: patch.element.clone(),
-            source: patch.feature.clone(),
-            note: String::new(),
-        },
-    };
     Provenance {
         source_hash,
         tool: concat!("vtex-baker ", env!("CARGO_PKG_VERSION")).into(),
         options: options(config),
         shapes: drawing.items.iter().zip(placed).map(report).collect(),
         warnings,
+    }
+}
+
+fn report((item, placed): (&Item, &Placed)) -> ShapeReport {
+    let (element, source) = match item {
+        Item::Shape(shape) => {
+            let source = match shape.source {
+                ShapeSource::Fill => "fill",
+                ShapeSource::Stroke => "stroke",
+            };
+            (&shape.element, source)
+        }
+        Item::Patch(patch) => (&patch.element, patch.feature.as_str()),
+    };
+    let report = ShapeReport {
+        element: element.clone(),
+        source: source.to_owned(),
+        ..ShapeReport::default()
+    };
+    match placed.kind {
+        PlacedKind::Shape { note, verdict, .. } => ShapeReport {
+            preparation: preparation(note),
+            finding: verdict.finding,
+            size_texels: match verdict.coverage {
+                Coverage::Msdf => size_texels(placed),
+                Coverage::Curves => verdict.size_texels,
+            },
+            field_error: verdict.error,
+            ..report
+        },
+        PlacedKind::Patch => ShapeReport {
+            finding: match item {
+                Item::Patch(patch) if patch.feature == SHAPE_FEATURE => Finding::TooManySegments,
+                _ => Finding::None,
+            },
+            ..report
+        },
+    }
+}
+
+fn preparation(note: Note) -> Preparation {
+    match note {
+        Note::AsDrawn => Preparation::AsDrawn,
+        Note::Simplified => Preparation::Simplified,
+        Note::SecondMethod => Preparation::SecondMethod,
+        Note::Failed => Preparation::Failed,
     }
 }
 

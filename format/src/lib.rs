@@ -110,7 +110,7 @@ pub use meta::{
     AddressMode, Grid, MAX_GRID_SIDE, MAX_TEXELS_PER_CELL, Meta, Outline, SamplerSettings,
 };
 pub use paint::{PAINT_SOLID, PaintRecord};
-pub use prov::{Provenance, ShapeReport, Warning, WarningCode};
+pub use prov::{FieldError, Finding, Preparation, Provenance, ShapeReport, Warning, WarningCode};
 pub use read::validate;
 pub use section::{Codec, SectionInfo};
 pub use shader::ShaderBlob;

@@ -17,15 +17,72 @@ pub struct Provenance {
     pub warnings: Vec<Warning>,
 }
 
-/// How one shape was baked.
+/// How one shape was baked. Its kind of coverage stands in its [`crate::ShapeRecord`].
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ShapeReport {
     /// `id` of the SVG element, empty when it has none.
     pub element: String,
     /// `fill`, `stroke` or the feature of a raster patch.
     pub source: String,
-    /// Preparation that was needed, empty when plain: `simplified`, `fallback`, ...
-    pub note: String,
+    /// How the outline was made fit for its coverage.
+    pub preparation: Preparation,
+    /// Why the shape is not an MSDF, or what is wrong with it.
+    pub finding: Finding,
+    /// Longer side of the shape's box in texels of the lattice on which its MSDF was judged or is
+    /// stored, rounded up; 0 where there was none.
+    pub size_texels: u32,
+    /// How far that MSDF is off; `None` where it was not measured.
+    pub field_error: Option<FieldError>,
+}
+
+/// Error of an MSDF at the file's largest zoom. Both are finite and not negative.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FieldError {
+    /// Share of probes around the edge, further from it than the bound on the error, that come out
+    /// on the wrong side; at most 1.
+    pub wrong_share: f32,
+    /// 99th percentile of the edge's displacement, in pixels.
+    pub p99_px: f32,
+}
+
+/// How an outline was made fit for its coverage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(u32)]
+pub enum Preparation {
+    /// As drawn: curves and images need no more, or nothing had to be done.
+    #[default]
+    AsDrawn = 0,
+    /// Overlaps were removed.
+    Simplified = 1,
+    /// The first method failed or disagreed with the drawing; the second removed the overlaps.
+    SecondMethod = 2,
+    /// No method agreed with the drawing; the outline is as drawn.
+    Failed = 3,
+}
+
+/// Why a shape is not an MSDF, or what is wrong with it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(u32)]
+pub enum Finding {
+    /// Nothing: an MSDF within the bound, a kind that an option forces, or an image.
+    #[default]
+    None = 0,
+    /// An MSDF would stay within the bound, but costs more than curves.
+    Cost = 1,
+    /// Eight bits of distance are too coarse for the largest zoom.
+    Quantisation = 2,
+    /// A line about a texel wide or less.
+    Hairline = 3,
+    /// The error sits at sharp corners.
+    Cusp = 4,
+    /// The error sits where the shape is about as thin as a texel.
+    ThinFeature = 5,
+    /// The edge is off by more than the bound.
+    Displaced = 6,
+    /// Overlaps could not be removed, so distances have no side to trust.
+    Overlaps = 7,
+    /// A cell's part has more segments than curve records can hold.
+    TooManySegments = 8,
 }
 
 /// Something a user should know about.

@@ -12,6 +12,9 @@
 
 pub(crate) mod lower;
 pub(crate) mod record;
+pub(crate) mod split;
+#[cfg(test)]
+mod split_tests;
 pub(crate) mod sweep;
 #[cfg(test)]
 mod tests;

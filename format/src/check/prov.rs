@@ -1,14 +1,23 @@
 //! The report of the bake.
 
 use crate::issue::{self, Issues};
-use crate::{Provenance, Tag};
+use crate::{FieldError, Provenance, Tag};
 
-/// One report a shape, options sorted.
+/// One report a shape, options sorted, errors in range.
 pub(super) fn provenance(provenance: &Provenance, shape_count: usize, issues: &mut Issues) {
     let reports = provenance.shapes.len();
     if reports != shape_count {
         let message = format_args!("{reports} reports, {shape_count} shapes");
         issues.add(issue::PROV_SHAPES, Tag::PROV, 0, message);
+    }
+    let sound = |error: FieldError| {
+        (0.0..=1.0).contains(&error.wrong_share) && error.p99_px.is_finite() && error.p99_px >= 0.0
+    };
+    for (index, report) in provenance.shapes.iter().enumerate() {
+        if let Some(error) = report.field_error.filter(|error| !sound(*error)) {
+            let message = format_args!("shape {index}: {error:?}");
+            issues.add(issue::PROV_ERROR, Tag::PROV, 0, message);
+        }
     }
     if !provenance.options.is_sorted_by(|a, b| a.0 < b.0) {
         issues.add(

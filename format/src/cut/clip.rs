@@ -63,6 +63,25 @@ impl Segment {
         self.start.x.max(self.end.x)
     }
 
+    /// The parts above and below a height strictly between the ends'; they share a lattice point.
+    #[must_use]
+    pub fn halves_at(&self, height: f64) -> [Self; 2] {
+        let control_y = self.control.map(|c| c.y);
+        let t = parameter(self.start.y, control_y, self.end.y, height);
+        let x = self.blossom(t, t).x.round();
+        let cut = Point::new(x.max(self.x_min()).min(self.x_max()), height);
+        let part = |start: Point, end: Point, from: f64, to: f64| Self {
+            start,
+            control: self.control.map(|_| {
+                let control = self.blossom(from, to);
+                Point::new(control.x.round(), control.y.round()).clamped(start, end)
+            }),
+            end,
+            direction: self.direction,
+        };
+        [part(self.start, cut, 0.0, t), part(cut, self.end, t, 1.0)]
+    }
+
     /// Blossom: the point at `s = t`, and the control point of the part between `s` and `t`.
     fn blossom(&self, s: f64, t: f64) -> Point {
         let axis = |a: f64, c: Option<f64>, b: f64| match c {

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use vtex_format::{
-    CurveLattice, Entry, EntryKind, Features, Grid, ISSUES, Image, Issue, LayerRecord, Limits,
-    Outline, ReadError, Tag, VtexFile, validate,
+    CurveLattice, Entry, EntryKind, Features, FieldError, Grid, ISSUES, Image, Issue, LayerRecord,
+    Limits, Outline, ReadError, Tag, VtexFile, validate,
 };
 
 use crate::forge::{Forged, put_together, seal, take_apart};
@@ -180,6 +180,10 @@ const VALUE_CASES: &[ValueCase] = &[
     (3038, |f| f.spec.reserved[1] = 1),
     (3050, |f| f.provenance.as_mut().unwrap().shapes.truncate(2)),
     (3051, |f| f.provenance.as_mut().unwrap().options.reverse()),
+    (3052, |f| field_error(f).wrong_share = 1.5),
+    (3052, |f| field_error(f).wrong_share = f32::NAN),
+    (3052, |f| field_error(f).p99_px = -1.0),
+    (3052, |f| field_error(f).p99_px = f32::INFINITY),
     (4002, |f| {
         f.layers = vec![layer(0, u32::MAX), layer(u32::MAX, 1)];
     }),
@@ -239,6 +243,11 @@ const VALUE_CASES: &[ValueCase] = &[
     (6015, |f| f.images[1].mips[0].truncate(7)),
     (6016, |f| f.images.swap(0, 1)),
 ];
+
+fn field_error(file: &mut VtexFile) -> &mut FieldError {
+    let report = &mut file.provenance.as_mut().unwrap().shapes[1];
+    report.field_error.as_mut().unwrap()
+}
 
 fn outline(file: &mut VtexFile) -> &mut Outline {
     file.meta.sampler.outline.as_mut().unwrap()

@@ -4,10 +4,10 @@ use arbtest::arbitrary::{Result, Unstructured};
 use bytemuck::Zeroable;
 use vtex_format::{
     AddressMode, COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CellWord, CurveHeader,
-    CurveLattice, CurveSources, Entry, EntryKind, Features, Grid, Image, LayerRecord, Meta,
-    Outline, PaintRecord, Provenance, SHADER_ABI, SamplerSettings, ShaderBlob, ShapeRecord,
-    ShapeReport, SourceOutline, SourceRecord, SourceSegment, SpecKey, VtexFile, Warning,
-    WarningCode,
+    CurveLattice, CurveSources, Entry, EntryKind, Features, FieldError, Finding, Grid, Image,
+    LayerRecord, Meta, Outline, PaintRecord, Preparation, Provenance, SHADER_ABI, SamplerSettings,
+    ShaderBlob, ShapeRecord, ShapeReport, SourceOutline, SourceRecord, SourceSegment, SpecKey,
+    VtexFile, Warning, WarningCode,
 };
 
 /// A 2 x 2 grid with every kind of cell and entry, two layers, two images and every section.
@@ -221,7 +221,13 @@ fn provenance(shape_count: usize) -> Provenance {
     let report = ShapeReport {
         element: "path1".to_owned(),
         source: "fill".to_owned(),
-        note: String::new(),
+        preparation: Preparation::Simplified,
+        finding: Finding::ThinFeature,
+        size_texels: 31,
+        field_error: Some(FieldError {
+            wrong_share: 0.25,
+            p99_px: 1.5,
+        }),
     };
     Provenance {
         source_hash: [7; 32],

@@ -26,4 +26,5 @@ pub mod reference;
 pub mod srgb;
 pub mod texture;
 pub mod tracing;
+pub mod walk;
 pub mod windows;

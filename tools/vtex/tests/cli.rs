@@ -361,6 +361,11 @@ fn info_preview_extract_and_compare_tell_what_is_there() {
     assert_eq!(info["shapes"][0]["element"], "square");
     assert_eq!(info["shapes"][0]["coverage"], "curves");
     assert_eq!(info["warnings"], serde_json::json!([]));
+    assert_eq!(info["shapes"][0]["finding"], "quantisation");
+    assert_eq!(info["shapes"][0]["p99_px"], serde_json::Value::Null);
+    let lookups = &info["lookups"];
+    assert!(lookups["entries_mean"].as_f64().unwrap() > 0.0, "{lookups}");
+    assert!(lookups["segments_p99"].as_u64().unwrap() > 0, "{lookups}");
     let text = bench.run(&["info", "square.vtex"]);
     let text = String::from_utf8_lossy(&text.stdout);
     assert!(
@@ -397,12 +402,19 @@ fn info_preview_extract_and_compare_tell_what_is_there() {
     );
     for name in [
         "layer-000-msdf.png",
-        "cells.png",
+        "cells-entries.png",
+        "cells-segments.png",
         "cells.json",
         "shader.wgsl",
         "batch.spv",
     ] {
         assert!(bench.path("parts").join(name).exists(), "{name}");
+    }
+
+    let legend = fs::read(bench.path("parts").join("cells.json")).unwrap();
+    let legend: serde_json::Value = serde_json::from_slice(&legend).unwrap();
+    for what in ["entries", "segments"] {
+        assert_eq!(legend[what]["lists"].as_array().unwrap().len(), 6, "{what}");
     }
 
     let compare = [

@@ -8,7 +8,7 @@ use vtex_format::{CellWord, Entry, EntryKind, Image, VtexFile};
 use crate::args::Extract;
 use crate::console::Console;
 use crate::failure::{ExitCode, Outcome};
-use crate::heat::heat_map;
+use crate::heat::{cell_loads, heat_map};
 use crate::picture::encode_png;
 use crate::{input, output, srgb, texture};
 
@@ -68,10 +68,22 @@ impl Folder {
         self.write("batch.spv", &spirv)
     }
 
+    /// Heat maps of entries and of segments, and what their colours mean.
     fn cells(&mut self, file: &VtexFile) -> Outcome<()> {
-        let (size_px, rgba, legend) = heat_map(file);
-        self.png("cells.png", size_px, &rgba)?;
-        self.write("cells.json", format!("{legend:#}\n").as_bytes())
+        let loads = cell_loads(file);
+        let mut legends = serde_json::Map::new();
+        let counts = [
+            ("entries", loads.iter().map(|load| load.entries).collect()),
+            ("segments", loads.iter().map(|load| load.segments).collect()),
+        ];
+        for (what, counts) in counts {
+            let counts: Vec<u32> = counts;
+            let map = heat_map(file, &counts);
+            self.png(&format!("cells-{what}.png"), map.size_px, &map.rgba)?;
+            legends.insert(what.to_owned(), map.legend);
+        }
+        let legends = serde_json::Value::from(legends);
+        self.write("cells.json", format!("{legends:#}\n").as_bytes())
     }
 
     fn layers(&mut self, file: &VtexFile) -> Outcome<()> {

@@ -4,15 +4,20 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 use vtex_format::{
-    COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CellWord, Directory, Features, Limits,
-    PaintRecord, ShapeRecord, VtexFile, Warning, directory,
+    COVERAGE_IMAGE, CellWord, Directory, Features, Limits, ShapeRecord, VtexFile, Warning,
+    directory,
 };
 
 use crate::args::Info;
 use crate::console::{Console, Format, human_bytes};
 use crate::failure::{ExitCode, Outcome};
-use crate::heat::entry_counts;
+use crate::heat::cell_loads;
+use crate::walk::{Spread, lookup_load};
 use crate::{input, texture};
+
+mod shapes;
+
+use shapes::{shape_json, shapes};
 
 /// Shapes listed unless `--verbose`.
 const SHAPES_SHOWN: usize = 24;
@@ -50,14 +55,15 @@ impl CellStats {
             words.filter(|&cell| wanted(cell)).count() as u64
         };
         let lists = count(|cell| matches!(cell, CellWord::List { .. }));
-        let lengths = entry_counts(file);
-        let listed: u64 = lengths.iter().map(|&length| u64::from(length)).sum();
+        let loads = cell_loads(file);
+        let lengths = || loads.iter().map(|load| load.entries);
+        let listed: u64 = lengths().map(u64::from).sum();
         Self {
             empty: count(|cell| cell == CellWord::Empty),
             single: count(|cell| matches!(cell, CellWord::Solid { .. })),
             lists,
             entries_mean: listed as f64 / lists.max(1) as f64,
-            entries_max: lengths.into_iter().max().unwrap_or(0),
+            entries_max: lengths().max().unwrap_or(0),
         }
     }
 }
@@ -85,6 +91,7 @@ pub(crate) fn feature_names(features: u32) -> Vec<&'static str> {
 fn json(file: &VtexFile, directory: &Directory) -> Value {
     let meta = &file.meta;
     let cells = CellStats::new(file);
+    let lookups = lookup_load(file);
     let provenance = file.provenance.as_ref();
     let layers: Vec<_> = (0..)
         .zip(&file.layers)
@@ -124,6 +131,10 @@ fn json(file: &VtexFile, directory: &Directory) -> Value {
             "empty": cells.empty, "single": cells.single, "lists": cells.lists,
             "entries_mean": cells.entries_mean, "entries_max": cells.entries_max,
         },
+        "lookups": {
+            "entries_mean": lookups.entries.mean, "entries_p99": lookups.entries.p99,
+            "segments_mean": lookups.segments.mean, "segments_p99": lookups.segments.p99,
+        },
         "tiles": tile_count(file), "paints": file.paints.len(),
         "layers": layers, "shapes": shapes, "images": images, "sections": sections,
         "shader": {
@@ -136,43 +147,6 @@ fn json(file: &VtexFile, directory: &Directory) -> Value {
         "options": provenance.map(|p| &p.options),
         "warnings": warnings_json(provenance.map_or(&[], |p| &p.warnings)),
     })
-}
-
-fn shape_json(file: &VtexFile, index: usize, shape: &ShapeRecord) -> Value {
-    let report = file.provenance.as_ref().and_then(|p| p.shapes.get(index));
-    let place = match shape.coverage {
-        COVERAGE_IMAGE => json!({"image": shape.layer_or_image}),
-        _ => json!({"layer": shape.layer_or_image}),
-    };
-    let mut record = json!({
-        "coverage": coverage_name(shape.coverage),
-        "element": report.map(|r| &r.element), "source": report.map(|r| &r.source),
-        "note": report.map(|r| &r.note),
-        "bounds_uv": shape.bounds_uv, "segments": shape.segment_count,
-        "color": file.paints.get(shape.paint as usize).map(|paint| paint.color),
-    });
-    if let (Value::Object(record), Value::Object(place)) = (&mut record, place) {
-        record.extend(place);
-    }
-    record
-}
-
-fn coverage_name(coverage: u32) -> &'static str {
-    match coverage {
-        COVERAGE_MSDF => "msdf",
-        COVERAGE_CURVES => "curves",
-        _ => "image",
-    }
-}
-
-/// How many shapes there are of each kind of coverage.
-fn coverage_counts(file: &VtexFile) -> String {
-    let counts = [COVERAGE_MSDF, COVERAGE_CURVES, COVERAGE_IMAGE].map(|coverage| {
-        let shapes = file.shapes.iter();
-        let count = shapes.filter(|shape| shape.coverage == coverage).count();
-        format!("{count} {}", coverage_name(coverage))
-    });
-    counts.join(", ")
 }
 
 /// Shapes of a layer by their place in the painter's order.
@@ -290,6 +264,14 @@ fn general(out: &mut String, file: &VtexFile, directory: &Directory) -> std::fmt
         "lists      {:.2} entries on average, {} at most",
         cells.entries_mean, cells.entries_max
     )?;
+    let lookups = lookup_load(file);
+    let spread = |Spread { mean, p99 }| format!("{mean:.2} (p99 {p99})");
+    writeln!(
+        out,
+        "lookups    {} entries, {} segments at random points",
+        spread(lookups.entries),
+        spread(lookups.segments)
+    )?;
     let side = grid.texels_per_cell + 1;
     writeln!(
         out,
@@ -346,46 +328,6 @@ fn layers(out: &mut String, file: &VtexFile) -> std::fmt::Result {
         )?;
     }
     Ok(())
-}
-
-fn shapes(out: &mut String, file: &VtexFile, shown: usize) -> std::fmt::Result {
-    let columns = ["shape", "layer", "segments", "colour", "element"];
-    let [shape, layer, segments, colour, element] = columns;
-    let count = file.shapes.len();
-    writeln!(
-        out,
-        "\n{count} shapes in painter's order: {}\n{shape:>5} {layer:>7} {segments:>9}  {colour:9}  {element}",
-        coverage_counts(file)
-    )?;
-    for (index, shape) in file.shapes.iter().enumerate().take(shown) {
-        let report = file.provenance.as_ref().and_then(|p| p.shapes.get(index));
-        let place = match shape.coverage {
-            COVERAGE_IMAGE => format!("image {}", shape.layer_or_image),
-            _ => shape.layer_or_image.to_string(),
-        };
-        let colour = match file.paints.get(shape.paint as usize) {
-            Some(paint) if shape.coverage != COVERAGE_IMAGE => css(paint),
-            _ => "-".to_owned(),
-        };
-        let what = report.map_or_else(String::new, |report| {
-            format!("{} {} {}", report.source, report.element, report.note)
-                .trim_end()
-                .to_owned()
-        });
-        writeln!(
-            out,
-            "{index:>5} {place:>7} {:>9}  {colour:9}  {what}",
-            shape.segment_count
-        )?;
-    }
-    if count > shown {
-        writeln!(out, "      ... {} more (-v)", count - shown)?;
-    }
-    Ok(())
-}
-
-fn css(paint: &PaintRecord) -> String {
-    format!("#{}", hex(&paint.color.map(crate::srgb::byte)))
 }
 
 fn images(out: &mut String, file: &VtexFile) -> std::fmt::Result {

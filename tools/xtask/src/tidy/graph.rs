@@ -25,7 +25,14 @@ struct Rule {
     must_not_reach: &'static [&'static str],
 }
 
-const SVG: [&str; 5] = ["usvg", "resvg", "tiny-skia", "fdsm", "linesweeper"];
+const SVG: [&str; 6] = [
+    "usvg",
+    "resvg",
+    "tiny-skia",
+    "fdsm",
+    "i_overlay",
+    "linesweeper",
+];
 const GPU: [&str; 3] = ["wgpu", "wgpu-core", "wgpu-hal"];
 
 const RULES: [Rule; 4] = [

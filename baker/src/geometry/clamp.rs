@@ -1,0 +1,105 @@
+//! Outlines brought back from absurd distances.
+
+use kurbo::{BezPath, CubicBez, Line, ParamCurve, PathEl, PathSeg, Point, QuadBez, Rect};
+
+/// Pieces smaller than this share of the window that still cross its border are moved as a whole:
+/// what is off by so little so far away does not show.
+const SMALLEST_SHARE: f64 = 1.0 / 1024.0;
+/// Halvings of a segment; a double has no more to give.
+const MAX_HALVINGS: u32 = 160;
+
+/// `outline`, its contours closed, with nothing further than `farthest` from the origin along
+/// either axis. Windings inside that square do not change, and segments that lie inside it stay
+/// bit-identical.
+pub(crate) fn clamp_outline(outline: &BezPath, farthest: f64) -> BezPath {
+    let window = Rect::new(-farthest, -farthest, farthest, farthest);
+    if is_inside(outline.control_box(), window) {
+        return outline.clone();
+    }
+    let mut clamped = BezPath::new();
+    let mut here = None;
+    for segment in outline.segments() {
+        let start = clamp(segment.start(), window);
+        if here != Some(start) {
+            if here.is_some() {
+                clamped.close_path();
+            }
+            clamped.move_to(start);
+        }
+        push(segment, window, MAX_HALVINGS, &mut clamped);
+        here = Some(clamp(segment.end(), window));
+    }
+    if here.is_some() {
+        clamped.close_path();
+    }
+    clamped
+}
+
+/// Appends `segment`. A piece whose box lies beside the window may become the line between its
+/// ends, and as it lies beyond one side of the window, so do the ends once they are moved there.
+fn push(segment: PathSeg, window: Rect, halvings: u32, clamped: &mut BezPath) {
+    let area = control_box(&segment);
+    if is_inside(area, window) {
+        clamped.push(segment.as_path_el());
+        return;
+    }
+    let beside = !area.overlaps(window);
+    let small = area.width().max(area.height()) <= SMALLEST_SHARE * window.width();
+    if beside || small || halvings == 0 {
+        let end = clamp(segment.end(), window);
+        if clamped.elements().last().and_then(PathEl::end_point) != Some(end) {
+            clamped.line_to(end);
+        }
+        return;
+    }
+    let (first, second) = halves(segment);
+    push(first, window, halvings - 1, clamped);
+    push(second, window, halvings - 1, clamped);
+}
+
+/// By means alone, so that ends stay bit-exact and the near part of a huge segment keeps its
+/// precision.
+fn halves(segment: PathSeg) -> (PathSeg, PathSeg) {
+    match segment {
+        PathSeg::Line(l) => {
+            let middle = l.p0.midpoint(l.p1);
+            (
+                Line::new(l.p0, middle).into(),
+                Line::new(middle, l.p1).into(),
+            )
+        }
+        PathSeg::Quad(q) => {
+            let (a, b) = (q.p0.midpoint(q.p1), q.p1.midpoint(q.p2));
+            let middle = a.midpoint(b);
+            let first = QuadBez::new(q.p0, a, middle);
+            (first.into(), QuadBez::new(middle, b, q.p2).into())
+        }
+        PathSeg::Cubic(c) => {
+            let (a, b) = (c.p0.midpoint(c.p1), c.p2.midpoint(c.p3));
+            let inner = c.p1.midpoint(c.p2);
+            let (d, e) = (a.midpoint(inner), inner.midpoint(b));
+            let middle = d.midpoint(e);
+            let first = CubicBez::new(c.p0, a, d, middle);
+            (first.into(), CubicBez::new(middle, e, b, c.p3).into())
+        }
+    }
+}
+
+fn control_box(segment: &PathSeg) -> Rect {
+    match segment {
+        PathSeg::Line(l) => Rect::from_points(l.p0, l.p1),
+        PathSeg::Quad(q) => Rect::from_points(q.p0, q.p2).union_pt(q.p1),
+        PathSeg::Cubic(c) => Rect::from_points(c.p0, c.p3).union_pt(c.p1).union_pt(c.p2),
+    }
+}
+
+fn is_inside(area: Rect, window: Rect) -> bool {
+    area.x0 >= window.x0 && area.y0 >= window.y0 && area.x1 <= window.x1 && area.y1 <= window.y1
+}
+
+fn clamp(p: Point, window: Rect) -> Point {
+    Point::new(
+        p.x.clamp(window.x0, window.x1),
+        p.y.clamp(window.y0, window.y1),
+    )
+}
