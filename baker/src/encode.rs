@@ -43,14 +43,27 @@ pub(crate) fn assemble(
         verdicts,
         msdf_size,
     } = judge(&drawing, config, mip0_size);
-    let lattice = if all_curves(&drawing, &verdicts) {
+    let curves_alone = all_curves(&drawing, &verdicts);
+    let mut lattice = if curves_alone {
         Lattice::for_curves(drawing.canvas_size, msdf_size, mip0_size)
     } else {
         Lattice::new(drawing.canvas_size, msdf_size)
     };
-    let scales = Scales::new(config, &lattice, mip0_size);
-    let mut placed = place(&drawing, &lattice, &verdicts);
-    let covers = cover(&placed, &lattice, &scales, config.max_zoom);
+    let attempt = |lattice: &Lattice| {
+        let scales = Scales::new(config, lattice, mip0_size);
+        let placed = place(&drawing, lattice, &verdicts);
+        let covers = cover(&placed, lattice, &scales, config.max_zoom);
+        (scales, placed, covers)
+    };
+    let (mut scales, mut placed, mut covers) = attempt(&lattice);
+    // What is too much for a cell may not be for its parts.
+    while curves_alone && covers.iter().any(Result::is_err) {
+        let Some(halved) = lattice.halved(drawing.canvas_size, mip0_size) else {
+            break;
+        };
+        lattice = halved;
+        (scales, placed, covers) = attempt(&lattice);
+    }
     let settings = PatchSettings {
         canvas_size: drawing.canvas_size,
         mip0_size: config.mip0_size,

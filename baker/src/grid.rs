@@ -49,6 +49,15 @@ impl Lattice {
         Self::with_cells(canvas_size, msdf_size, cells)
     }
 
+    /// The same with cells of half the side, or `None` when they are as small as can be.
+    pub(crate) fn halved(&self, canvas_size: [f64; 2], mip0_size: u32) -> Option<Self> {
+        let [columns, rows] = self.grid.cell_from_uv_scale;
+        let cells = 2 * floor_u32(columns.max(rows));
+        let unit = self.grid.texels_per_cell.div_ceil(2);
+        (cells <= MAX_CELLS.min(mip0_size))
+            .then(|| Self::with_cells(canvas_size, unit * cells, cells))
+    }
+
     fn with_cells(canvas_size: [f64; 2], msdf_size: u32, cells: u32) -> Self {
         let texels_per_cell = msdf_size.div_ceil(cells).clamp(1, MAX_TEXELS_PER_CELL);
         let longer = canvas_size[0].max(canvas_size[1]);
@@ -124,6 +133,15 @@ impl Lattice {
 )]
 fn to_cells(x: f32) -> u32 {
     x as u32 + 1
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "at most MAX_CELLS and not negative"
+)]
+fn floor_u32(x: f32) -> u32 {
+    x as u32
 }
 
 fn to_cells_f64(x: f64) -> u32 {
