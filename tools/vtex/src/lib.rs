@@ -16,6 +16,7 @@ pub mod failure;
 pub mod fonts;
 pub mod heat;
 pub mod input;
+mod lattice;
 pub mod metrics;
 pub mod output;
 pub mod page;
