@@ -37,6 +37,7 @@ mod judge;
 mod mips;
 mod msdf;
 mod paint_table;
+mod painter;
 mod patch;
 mod placed;
 mod prepare;
@@ -59,6 +60,7 @@ use warning::Warnings;
 
 pub use config::{BakeConfig, Mode, Resources, Stage};
 pub use error::BakeError;
+pub use painter::Painter;
 pub use svg::font_selector;
 
 #[cfg(test)]

@@ -73,6 +73,18 @@ impl SampleLattice {
         [x, y + f64::from(self.t * tile_px[0])]
     }
 
+    /// Corner of a tile's finer picture in that of the whole picture of `size_px`.
+    pub(crate) fn fine_corner(
+        &self,
+        origin_px: [u32; 2],
+        size_px: [u32; 2],
+        tile_px: [u32; 2],
+    ) -> [f64; 2] {
+        let origin = origin_px.map(f64::from);
+        let [x, y] = self.fine_from_px(origin, size_px);
+        [x, y - f64::from(self.t * tile_px[0])]
+    }
+
     /// Rows and columns of the samples of a pixel in the finer picture of its tile.
     pub(crate) fn samples_of(
         &self,

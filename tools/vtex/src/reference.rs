@@ -5,7 +5,8 @@
 //! premultiplied. They lie on a turned lattice ([`SampleLattice`]): on one along the axes a
 //! vertical edge is in one of 16 places, and beside black that alone costs 50 of 255 codes. The
 //! scale is exact: uv \[0, 1\] maps to the picture's edges in both directions, whatever the
-//! rounding of the canvas' size to whole pixels.
+//! rounding of the canvas' size to whole pixels. Strokes of plain drawings are expanded at the scale
+//! of the picture ([`PlainPaths`]).
 
 use std::sync::Arc;
 
@@ -16,6 +17,7 @@ use usvg::fontdb;
 use crate::failure::{Failure, Outcome};
 use crate::lattice::SampleLattice;
 use crate::picture::{Picture, View};
+use crate::plain::{Outlines, PlainPaths};
 use crate::srgb;
 
 /// Samples along each side of a pixel in [`Reference::render`].
@@ -36,6 +38,8 @@ pub enum Edges {
 #[derive(Debug)]
 pub struct Reference {
     tree: usvg::Tree,
+    /// The same drawing where it is paths only.
+    plain: Option<PlainPaths>,
     /// Whether resvg draws the tree turned as it draws it upright.
     turns: bool,
 }
@@ -59,8 +63,12 @@ impl Reference {
         // Glyphs of another face would be compared otherwise.
         options.font_resolver.select_font = vtex_baker::font_selector();
         let tree = usvg::Tree::from_data(svg, &options).map_err(|error| error.to_string())?;
+        let plain = match edges {
+            Edges::Crisp => PlainPaths::new(&tree),
+            Edges::Smooth => None,
+        };
         let turns = turns(&tree);
-        Ok(Self { tree, turns })
+        Ok(Self { tree, plain, turns })
     }
 
     /// Width and height of the canvas in user units.
@@ -86,12 +94,20 @@ impl Reference {
         let side_px = (TILE_FINE_PX / samples).max(1);
         let [columns, rows] = size_px.map(|side| side.div_ceil(side_px));
         let table = srgb::decode_table();
+        let outlines = self.outlines(view, size_px, &lattice);
         let tiles = (0..columns * rows)
             .into_par_iter()
             .map(|tile| {
                 let origin_px = [tile % columns * side_px, tile / columns * side_px];
                 let tile_px = [0, 1].map(|axis| side_px.min(size_px[axis] - origin_px[axis]));
-                let fine = self.draw(view, size_px, origin_px, tile_px, &lattice)?;
+                let fine = self.draw(
+                    outlines.as_ref(),
+                    view,
+                    size_px,
+                    origin_px,
+                    tile_px,
+                    &lattice,
+                )?;
                 Ok((
                     origin_px,
                     tile_px,
@@ -115,17 +131,26 @@ impl Reference {
     /// When the pixels cannot be allocated.
     pub fn rasterize(&self, size_px: [u32; 2]) -> Outcome<Pixmap> {
         let upright = SampleLattice::new(1, false);
-        self.draw(View::WHOLE, size_px, [0, 0], size_px, &upright)
+        self.draw(None, View::WHOLE, size_px, [0, 0], size_px, &upright)
     }
 
-    fn draw(
+    /// Plain paths in the fine pixels of a picture.
+    fn outlines(&self, view: View, size_px: [u32; 2], lattice: &SampleLattice) -> Option<Outlines> {
+        let plain = self.plain.as_ref()?;
+        let affine = self.fine_from_canvas(view, size_px, [0, 0], size_px, lattice);
+        let size = lattice.fine_size(size_px).map(f64::from);
+        Some(plain.outlines(kurbo::Affine::new(affine), size))
+    }
+
+    /// Coefficients `a b c d e f` of the map from the canvas to fine pixels of a tile.
+    fn fine_from_canvas(
         &self,
         view: View,
         size_px: [u32; 2],
         origin_px: [u32; 2],
         tile_px: [u32; 2],
         lattice: &SampleLattice,
-    ) -> Outcome<Pixmap> {
+    ) -> [f64; 6] {
         let canvas = self.canvas_size();
         let extent = view.extent();
         let corner = [view.u0, view.v0];
@@ -134,20 +159,32 @@ impl Reference {
         let scale = [0, 1].map(|axis| size[axis] / (canvas[axis] * extent[axis]));
         let shift = [0, 1]
             .map(|axis| -corner[axis] / extent[axis] * size[axis] - f64::from(origin_px[axis]));
+        let [along_x, along_y] = [[scale[0], 0.0], [0.0, scale[1]]].map(|v| lattice.turn(v));
+        let [e, f] = lattice.fine_from_px(shift, tile_px);
+        [along_x[0], along_x[1], along_y[0], along_y[1], e, f]
+    }
+
+    fn draw(
+        &self,
+        outlines: Option<&Outlines>,
+        view: View,
+        size_px: [u32; 2],
+        origin_px: [u32; 2],
+        tile_px: [u32; 2],
+        lattice: &SampleLattice,
+    ) -> Outcome<Pixmap> {
         let [width, height] = lattice.fine_size(tile_px);
         let mut pixmap = Pixmap::new(width, height)
             .ok_or_else(|| Failure::runtime("cannot allocate the reference picture"))?;
-        let [along_x, along_y] = [[scale[0], 0.0], [0.0, scale[1]]].map(|v| lattice.turn(v));
-        let origin = lattice.fine_from_px(shift, tile_px);
-        let [a, b, c, d, e, f] = [
-            along_x[0], along_x[1], along_y[0], along_y[1], origin[0], origin[1],
-        ]
-        .map(narrow);
-        resvg::render(
-            &self.tree,
-            Transform::from_row(a, b, c, d, e, f),
-            &mut pixmap.as_mut(),
-        );
+        if let Some(outlines) = outlines {
+            let corner = lattice.fine_corner(origin_px, size_px, tile_px);
+            outlines.paint(corner, &mut pixmap.as_mut());
+        } else {
+            let affine = self.fine_from_canvas(view, size_px, origin_px, tile_px, lattice);
+            let [a, b, c, d, e, f] = affine.map(narrow);
+            let transform = Transform::from_row(a, b, c, d, e, f);
+            resvg::render(&self.tree, transform, &mut pixmap.as_mut());
+        }
         Ok(pixmap)
     }
 }
