@@ -75,7 +75,7 @@ impl Subject {
 
     fn tally(&self, seen: &[[f32; 4]]) -> Tally {
         let mut tally = Tally::default();
-        assert_eq!(seen.len(), self.expected.len());
+        assert_eq!(seen.len(), self.expected.len(), "one answer a lookup");
         let pairs = seen.iter().zip(&self.expected).zip(&self.places);
         for (index, ((seen, expected), &uv)) in pairs.enumerate() {
             let same = seen

@@ -31,7 +31,7 @@ impl SampleLattice {
                 (-reach..=reach).filter(|&column| lattice.in_first_pixel(column, row));
             if let Some(first) = columns.next() {
                 // A pixel is convex, so the columns follow each other.
-                let last = columns.last().unwrap_or(first);
+                let last = columns.next_back().unwrap_or(first);
                 lattice.runs.push((row, first..last + 1));
             }
         }

@@ -4,9 +4,9 @@ use super::options::Options;
 use super::row::Row;
 
 /// All rows in the order given.
-pub(crate) fn write(rows: &[Row], options: &Options) -> String {
+pub(crate) fn write<'a>(rows: impl Iterator<Item = &'a Row>, options: &Options) -> String {
     let mut lines = vec![header(options)];
-    lines.extend(rows.iter().map(|row| line(row, options)));
+    lines.extend(rows.map(|row| line(row, options)));
     lines
         .iter()
         .flat_map(|fields| [fields.join(","), "\r\n".to_owned()])
@@ -85,7 +85,7 @@ mod tests {
             error: Some("he said \"no\"".to_owned()),
             ..Row::default()
         };
-        let text = write(&[good, bad], &options);
+        let text = write([good, bad].iter(), &options);
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(
             lines[1],

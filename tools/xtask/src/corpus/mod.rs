@@ -25,6 +25,9 @@ pub(crate) use options::USAGE;
 /// Folder that is left out: its files are made to break readers.
 const HOSTILE: &str = "hostile";
 
+/// The table for programs.
+const CSV: &str = "corpus.csv";
+
 /// Measures as asked for and writes both tables. False when a file failed or missed its bar.
 pub(crate) fn run(ws: &Workspace, arguments: &[String]) -> Result<bool> {
     let options = Options::parse(arguments).map_err(|error| error.context(USAGE))?;
@@ -50,8 +53,8 @@ pub(crate) fn run(ws: &Workspace, arguments: &[String]) -> Result<bool> {
     };
     let rows = measure_all(&bench, &files)?;
     std::fs::remove_dir_all(&scratch)?;
-    let [csv, html] = ["corpus.csv", "corpus.html"].map(|name| options.out.join(name));
-    std::fs::write(&csv, csv::write(&rows, &options))?;
+    let [csv, html] = [CSV, "corpus.html"].map(|name| options.out.join(name));
+    std::fs::write(&csv, csv::write(rows.iter(), &options))?;
     std::fs::write(&html, page::write(&rows, &options))?;
     Ok(report(&rows, &options, &html))
 }
@@ -65,8 +68,9 @@ fn measure_all(bench: &Bench<'_>, files: &[String]) -> Result<Vec<Row>> {
     {
         progress.set_style(style);
     }
+    let table = options.out.join(CSV);
     let next = AtomicUsize::new(0);
-    let rows = Mutex::new(Vec::new());
+    let rows: Mutex<Vec<(usize, Row)>> = Mutex::default();
     let work = || -> Result<()> {
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
@@ -78,6 +82,8 @@ fn measure_all(bench: &Bench<'_>, files: &[String]) -> Result<Vec<Row>> {
             progress.inc(1);
             if let Ok(mut rows) = rows.lock() {
                 rows.push((index, row));
+                // What is there stays when a long run is broken off.
+                std::fs::write(&table, csv::write(rows.iter().map(|(_, row)| row), options))?;
             }
         }
     };
@@ -91,11 +97,10 @@ fn measure_all(bench: &Bench<'_>, files: &[String]) -> Result<Vec<Row>> {
     })?;
     progress.finish_and_clear();
     let mut rows = rows.into_inner().unwrap_or_default();
-    rows.sort_by(|a, b| {
-        let [ranks @ ..] = [a, b].map(|(_, row)| row.rank(&options.bars));
-        ranks[0]
-            .total_cmp(&ranks[1])
-            .then_with(|| a.1.file.cmp(&b.1.file))
+    let rank = |row: &Row| row.rank(&options.bars);
+    rows.sort_by(|(_, a), (_, b)| {
+        let order = rank(a).total_cmp(&rank(b));
+        order.then_with(|| a.file.cmp(&b.file))
     });
     for (index, row) in rows.iter_mut().take(options.pictures) {
         if let Some((zoom, _)) = row.margin(&options.bars) {
