@@ -47,6 +47,15 @@ impl Cover {
     }
 }
 
+/// Within how many units of its chord a quadratic may stay to become a line, and a quadratic of the
+/// cubic it stands for. A number that a file holds exactly.
+pub(crate) fn flatness_units(lattice: &Lattice, curve_lattice: CurveLattice, max_zoom: f32) -> f32 {
+    let units_per_step = f64::from(curve_lattice.units_per_cell) / lattice.cell_steps();
+    let units_per_px =
+        units_per_step * lattice.longer_steps() / (PIXELS_AT_ZOOM_1 * f64::from(max_zoom));
+    to_f32((TOLERANCE_PX * units_per_px).max(MIN_TOLERANCE_UNITS))
+}
+
 /// The lattice of curve records on `lattice`, or `None` where nothing needs one.
 pub(crate) fn curve_lattice(
     placed: &[Placed],
@@ -113,12 +122,6 @@ pub(crate) fn cover(
         .collect()
 }
 
-/// How far lowering may move a curve, in units, on a canvas whose longer side is `longer_units`.
-pub(crate) fn tolerance_units(longer_units: f64, max_zoom: f32) -> f64 {
-    let units_per_px = longer_units / (PIXELS_AT_ZOOM_1 * f64::from(max_zoom));
-    (TOLERANCE_PX * units_per_px).max(MIN_TOLERANCE_UNITS)
-}
-
 /// Cuts outlines to cells.
 struct Cutter {
     params: CutParams,
@@ -128,12 +131,11 @@ struct Cutter {
 impl Cutter {
     fn new(lattice: &Lattice, curve_lattice: CurveLattice, max_zoom: f32) -> Self {
         let units_per_step = f64::from(curve_lattice.units_per_cell) / lattice.cell_steps();
-        let longer_units = units_per_step * lattice.longer_steps();
         Self {
             params: CutParams {
                 size_cells: lattice.grid.size_cells,
                 lattice: curve_lattice,
-                flatness_units: tolerance_units(longer_units, max_zoom),
+                flatness_units: f64::from(flatness_units(lattice, curve_lattice, max_zoom)),
             },
             units_from_steps: Affine::scale(units_per_step),
         }

@@ -4,17 +4,18 @@
 //! points, see [`LoweredOutline`] - and none of what they do with it: no cells, no cuts, no steps,
 //! no layers, no f32.
 
-use kurbo::{Affine, Point};
-use vtex_format::{COVERAGE_CURVES, VtexFile};
+use kurbo::{Affine, Point, Rect};
+use vtex_format::{COVERAGE_CURVES, Grid, VtexFile};
 use vtex_shaders::cpu::color::decode;
 
 use crate::{
     BakeError,
     config::{BakeConfig, Resources},
-    cover::tolerance_units,
+    cover::flatness_units,
     curves::lower::{LoweredOutline, Segment},
     drawing::{FillRule, Item, Shape},
     geometry::floor_index,
+    grid::Lattice,
     prepare::clean,
 };
 
@@ -64,27 +65,20 @@ impl Painter {
         let Some(lattice) = file.meta.curve_lattice.filter(|_| all_curves) else {
             return Ok(None);
         };
-        let grid = &file.meta.grid;
-        let per_cell = f64::from(lattice.units_per_cell);
-        let units_per_uv = grid
-            .cell_from_uv_scale
-            .map(|scale| f64::from(scale) * per_cell);
-        let offset_units = grid
-            .cell_from_uv_offset
-            .map(|cells| f64::from(cells) * per_cell);
-        let [width, height] = drawing.canvas_size;
-        let units_from_canvas = Affine::translate((offset_units[0], offset_units[1]))
-            * Affine::scale_non_uniform(units_per_uv[0] / width, units_per_uv[1] / height);
-        let longer_units = units_per_uv[0].max(units_per_uv[1]);
+        let steps = lattice_of(file.meta.grid, drawing.canvas_size);
+        let units_per_step = f64::from(lattice.units_per_cell) / steps.cell_steps();
+        let units_from_canvas = Affine::scale(units_per_step) * steps.lattice_from_canvas;
+        let canvas = steps.canvas.scale_from_origin(units_per_step);
+        let rows = f64::from(file.meta.grid.size_cells[1] * lattice.units_per_cell);
         let mut painter = Self {
-            units_per_uv,
-            offset_units,
+            units_per_uv: [canvas.width(), canvas.height()],
+            offset_units: [canvas.x0, canvas.y0],
             shapes: Vec::new(),
             segments: Vec::new(),
             rows: vec![Vec::new(); ROWS],
-            rows_per_unit: ROWS as f64 / (f64::from(grid.size_cells[1]) * per_cell),
+            rows_per_unit: ROWS as f64 / rows,
         };
-        let tolerance = tolerance_units(longer_units, config.max_zoom);
+        let tolerance = f64::from(flatness_units(&steps, lattice, config.max_zoom));
         for item in drawing.items.iter().rev() {
             let Item::Shape(shape) = item else {
                 return Ok(None);
@@ -184,6 +178,23 @@ impl Painter {
         } else {
             f64::INFINITY
         }
+    }
+}
+
+/// The lattice of a stored grid.
+fn lattice_of(grid: Grid, canvas_size: [f64; 2]) -> Lattice {
+    let steps = f64::from(grid.texels_per_cell);
+    let size = grid
+        .cell_from_uv_scale
+        .map(|cells| f64::from(cells) * steps);
+    let corner = grid
+        .cell_from_uv_offset
+        .map(|cells| f64::from(cells) * steps);
+    let scale = [0, 1].map(|axis| size[axis] / canvas_size[axis]);
+    Lattice {
+        grid,
+        lattice_from_canvas: Affine::new([scale[0], 0.0, 0.0, scale[1], corner[0], corner[1]]),
+        canvas: Rect::from_origin_size((corner[0], corner[1]), (size[0], size[1])),
     }
 }
 
