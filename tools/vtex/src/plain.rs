@@ -348,6 +348,23 @@ mod tests {
     }
 
     #[test]
+    fn strokes_have_no_holes() {
+        // Turns all the way round, with a cap of each kind inside the line.
+        for cap in ["round", "square", "butt"] {
+            let content = format!(
+                "<path d='M20 50a30 30 0 1 0 60 0a30 30 0 1 0 -60 0v.1' stroke='#000' fill='none' \
+                 stroke-width='14' stroke-linecap='{cap}' stroke-linejoin='round'/>"
+            );
+            for degrees in [0.0_f64, 25.0, 50.0, 80.0, 145.0, 180.0, 250.0, 290.0, 345.0] {
+                let (sin, cos) = degrees.to_radians().sin_cos();
+                let view = View::window([0.5 + 0.3 * cos, 0.5 + 0.3 * sin], 12.0);
+                let share = covered(&content, view);
+                assert!(share >= 1.0, "{cap} at {degrees}: {share}");
+            }
+        }
+    }
+
+    #[test]
     fn strokes_are_as_resvg_draws_them() {
         let open = "d='M20 30L50 35L60 60C90 60 60 20 85 30' stroke='#000' fill='none'";
         // resvg leaves the start of a dashed closed path without its cap.

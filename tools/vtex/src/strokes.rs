@@ -243,7 +243,9 @@ impl Sink<'_> {
         let sides: Vec<Vec2> = (0..bits).map(side).collect();
         for k in 0..bits {
             let (p, q, n) = (points[k], next(k), sides[k]);
-            self.push(vec![p + n, p - n, q - n, q + n]);
+            // Split at the line, where wedges begin: edges that pieces share are the same
+            // for the rasteriser, and no hole shows between them.
+            self.push(vec![p + n, p, p - n, q - n, q, q + n]);
         }
         for k in 0..points.len() {
             let before = match k {
@@ -292,7 +294,13 @@ impl Sink<'_> {
             Cap::Round => self.fan(p, left, std::f64::consts::PI),
             Cap::Square => {
                 let back = Vec2::new(-left.y, left.x);
-                self.push(vec![p + left, p - left, p - left + back, p + left + back]);
+                self.push(vec![
+                    p + left,
+                    p,
+                    p - left,
+                    p - left + back,
+                    p + left + back,
+                ]);
             }
         }
     }
