@@ -2,11 +2,11 @@
 //!
 //! resvg draws the SVG about 16 times as fine as wanted with anti-aliasing off, so every fine pixel
 //! is an exact point sample at its centre; the 257 of a pixel are averaged in linear light,
-//! premultiplied. They lie on a turned lattice ([`SampleLattice`]): on one along the axes a
+//! premultiplied. They lie on a turned lattice (`lattice.rs`): on one along the axes a
 //! vertical edge is in one of 16 places, and beside black that alone costs 50 of 255 codes. The
 //! scale is exact: uv \[0, 1\] maps to the picture's edges in both directions, whatever the
 //! rounding of the canvas' size to whole pixels. Strokes of plain drawings are expanded at the scale
-//! of the picture ([`PlainPaths`]).
+//! of the picture (`plain.rs`).
 
 use std::sync::Arc;
 
