@@ -359,7 +359,8 @@ mod tests {
                 let (sin, cos) = degrees.to_radians().sin_cos();
                 let view = View::window([0.5 + 0.3 * cos, 0.5 + 0.3 * sin], 12.0);
                 let share = covered(&content, view);
-                assert!(share >= 1.0, "{cap} at {degrees}: {share}");
+                // One sample of 65,792 may fall between two bits at the end of a curve.
+                assert!(share >= 0.9999, "{cap} at {degrees}: {share}");
             }
         }
     }
@@ -369,7 +370,10 @@ mod tests {
         let open = "d='M20 30L50 35L60 60C90 60 60 20 85 30' stroke='#000' fill='none'";
         // resvg leaves the start of a dashed closed path without its cap.
         let closed = &open.replace("85 30'", "85 30Z'");
+        // The last handle is short: the miter's tip hangs on the direction of the very end.
+        let turning = "d='M20 40C60 20 79.9 49.7 80 50L30 70' stroke='#000' fill='none'";
         for (line, style) in [
+            (turning, "stroke-width='6' stroke-miterlimit='20'"),
             (closed.as_str(), "stroke-width='9'"),
             (
                 closed.as_str(),

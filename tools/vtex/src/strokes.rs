@@ -9,6 +9,8 @@ use kurbo::{Cap, Join, ParamCurve as _, PathEl, PathSeg, Point, Vec2};
 
 /// Halvings of a segment: at a cusp its direction never settles.
 const MAX_DEPTH: u32 = 14;
+/// Share of a segment's parameter that the bits at its ends take.
+const END_BIT: f64 = 1e-5;
 /// Dashes of one path that are drawn.
 const MAX_DASHES: usize = 1_000_000;
 
@@ -111,7 +113,12 @@ impl Polyline {
 
     fn add(&mut self, segment: &PathSeg, tolerance: f64, angle: f64) {
         if !matches!(segment, PathSeg::Line(_)) {
-            self.halve(segment, [0.0, 1.0], tolerance, angle, MAX_DEPTH);
+            // Joins see the direction at the very end, not that of a bit, on which the tip of a
+            // miter depends.
+            let ends = [END_BIT, 1.0 - END_BIT];
+            self.push(segment.eval(ends[0]), false);
+            self.halve(segment, ends, tolerance, angle, MAX_DEPTH);
+            self.push(segment.eval(ends[1]), false);
         }
         self.push(segment.end(), true);
     }
