@@ -37,6 +37,7 @@ mod judge;
 mod mips;
 mod msdf;
 mod paint_table;
+mod painter;
 mod palette;
 mod patch;
 mod placed;
@@ -61,6 +62,7 @@ use warning::Warnings;
 
 pub use config::{BakeConfig, Mode, Resources, Stage};
 pub use error::BakeError;
+pub use painter::Painter;
 pub use svg::font_selector;
 
 #[cfg(test)]

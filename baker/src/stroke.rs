@@ -1,5 +1,7 @@
 //! Strokes as filled outlines: caps, joins, miter limits and dashes (SVG 2 sec. 13.5).
 
+mod arcs;
+
 use kurbo::{Affine, BezPath, Cap, Join, PathEl, Point, StrokeOpts, Vec2};
 
 /// Dashes of one path; more are drawn as a continuous line. Such dashes are far below a pixel at
@@ -80,7 +82,11 @@ pub(crate) fn expand(
             opacity = duty(&dashes);
         }
     }
-    let outline = kurbo::stroke(line, &style.kurbo(), &StrokeOpts::default(), tolerance);
+    let options = StrokeOpts::default();
+    let mut outline = kurbo::stroke(line.iter(), &style.kurbo(), &options, tolerance);
+    if style.is_round() {
+        outline = arcs::refine(&outline, &line, 0.5 * style.width, tolerance);
+    }
     let outline = canvas_from_path * work_from_path.inverse() * outline;
     outline.is_finite().then_some(Expanded { outline, opacity })
 }
@@ -104,6 +110,10 @@ impl StrokeStyle {
             dash_offset: self.dash_offset * scale,
             ..self.clone()
         }
+    }
+
+    fn is_round(&self) -> bool {
+        self.cap == Cap::Round || self.join == Join::Round
     }
 
     /// kurbo's limit applies to half the miter length over half the width: the same ratio.

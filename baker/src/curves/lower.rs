@@ -33,13 +33,11 @@ pub(crate) struct Segment {
 
 impl Segment {
     /// Smallest x.
-    #[cfg(test)]
     pub(crate) fn x_min(&self) -> f64 {
         self.start.x.min(self.end.x)
     }
 
     /// Largest x.
-    #[cfg(test)]
     pub(crate) fn x_max(&self) -> f64 {
         self.start.x.max(self.end.x)
     }

@@ -68,7 +68,7 @@ pub enum Command {
     Demo(Demo),
 }
 
-const METRICS: &str = "The truth is resvg without anti-aliasing at 16 x 16 samples a pixel, \
+const METRICS: &str = "The truth is resvg without anti-aliasing at 257 samples a pixel, \
     averaged in linear light. Both pictures are laid over white in linear light and sRGB-encoded; \
     PSNR is over their R, G and B, a pixel is wrong when a channel differs by more than 8 of 255. \
     At zooms above 1 four windows at edges of the drawing are measured and the worst counts.";
@@ -288,6 +288,10 @@ pub struct Compare {
     /// Also write a page with pictures: SVG, vtex, raster 4096
     #[arg(long, value_name = "DIR")]
     pub html: Option<PathBuf>,
+    /// Also write the worst window of the worst zoom: svg.png, vtex.png and difference.png, which
+    /// shows differences four times as large
+    #[arg(long, value_name = "DIR")]
+    pub pictures: Option<PathBuf>,
     /// Fonts for text.
     #[command(flatten)]
     pub fonts: Fonts,

@@ -11,6 +11,7 @@
 //! Masks are compared by alpha, as opaque grey pictures.
 
 use crate::picture::Picture;
+use crate::srgb;
 
 /// PSNR of equal pictures, dB. Real pictures that differ in one pixel by one step stay below.
 pub const PSNR_CAP_DB: f64 = 120.0;
@@ -65,10 +66,29 @@ pub fn difference(truth: &Picture, picture: &Picture) -> Difference {
     }
 }
 
+/// How far two pictures of one size are apart in each pixel, in codes times `gain`, on black.
+///
+/// # Panics
+/// When the sizes differ.
+pub fn difference_picture(truth: &Picture, picture: &Picture, gain: f32) -> Picture {
+    assert_eq!(
+        truth.size_px, picture.size_px,
+        "pictures of one size are compared"
+    );
+    let [truth_rgb, picture_rgb] = [truth.over(1.0), picture.over(1.0)];
+    let pixel = |(a, b): (&[f32; 3], &[f32; 3])| {
+        let apart = |c: usize| srgb::decode((gain * (a[c] - b[c]).abs()).min(1.0));
+        [apart(0), apart(1), apart(2), 1.0]
+    };
+    Picture {
+        size_px: truth.size_px,
+        pixels: truth_rgb.iter().zip(&picture_rgb).map(pixel).collect(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::srgb;
 
     fn grey(codes: &[u8]) -> Picture {
         let pixel = |&code: &u8| {
@@ -91,5 +111,8 @@ mod tests {
         assert!((found.wrong_share - 0.25).abs() < 1e-12, "{found:?}");
         assert_eq!(found.max_at_px, [1, 0]);
         assert!(difference(&truth, &grey(&[92, 108, 100, 101])).wrong_share < 1e-12);
+        let shown = difference_picture(&truth, &grey(&[100, 110, 100, 100]), 4.0);
+        let codes: Vec<u8> = shown.to_straight_srgb().into_iter().step_by(4).collect();
+        assert_eq!(codes, [0, 40, 0, 0]);
     }
 }

@@ -1,9 +1,10 @@
-//! Checks and chores of this workspace: `cargo xtask ci`, `cargo xtask tidy`.
+//! Checks and chores of this workspace: `cargo xtask ci`, `cargo xtask tidy`, `cargo xtask corpus`.
 
 #![expect(clippy::print_stdout, reason = "a tool talks to its user")]
 #![expect(clippy::print_stderr, reason = "a tool talks to its user")]
 
 mod ci;
+mod corpus;
 mod tidy;
 mod workspace;
 
@@ -13,13 +14,26 @@ use workspace::Workspace;
 
 const USAGE: &str = "\
 usage: cargo xtask ci [STEP...]   all checks, or the named ones
-       cargo xtask tidy           the rules that no compiler knows";
+       cargo xtask tidy           the rules that no compiler knows
+       cargo xtask corpus DIR     every SVG of a folder baked and measured; alone: its options";
+
+/// Exit code of a difference found, as `vtex compare`'s.
+const DIFFERENCE: u8 = 7;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let mut failed = 2;
     let result = match arguments.split_first() {
         Some((name, steps)) if name == "ci" => Workspace::find().and_then(|ws| ci::run(&ws, steps)),
         Some((name, [])) if name == "tidy" => Workspace::find().and_then(|ws| tidy::run(&ws)),
+        Some((name, [])) if name == "corpus" => {
+            eprintln!("{}", corpus::USAGE);
+            return ExitCode::from(1);
+        }
+        Some((name, rest)) if name == "corpus" => {
+            failed = DIFFERENCE;
+            Workspace::find().and_then(|ws| corpus::run(&ws, rest))
+        }
         _ => {
             eprintln!("{USAGE}");
             return ExitCode::from(1);
@@ -27,7 +41,7 @@ fn main() -> ExitCode {
     };
     match result {
         Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(2),
+        Ok(false) => ExitCode::from(failed),
         Err(error) => {
             eprintln!("xtask: {error:#}");
             ExitCode::from(2)

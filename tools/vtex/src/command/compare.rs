@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use vtex_format::VtexFile;
 
 use crate::args::Compare;
-use crate::comparison::{Comparison, Terms, ZoomReport};
+use crate::comparison::{Comparison, Terms, Window, ZoomReport};
 use crate::console::{Console, Format};
 use crate::failure::{ExitCode, Failure, Outcome};
 use crate::fonts::FontLibrary;
@@ -15,7 +15,7 @@ use crate::page::{Column, Page, Sizes};
 use crate::raster::RasterTexture;
 use crate::reference::{Edges, Reference};
 use crate::texture::{self, Shooter};
-use crate::{input, raster};
+use crate::{input, metrics, output, raster};
 
 /// Runs `vtex compare`.
 pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {
@@ -57,7 +57,32 @@ pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {
         write_page(&args, folder, &stock, &comparison, &shooter, &reports)?;
         console.note(&format!("{}", folder.join("index.html").display()));
     }
+    if let Some(folder) = &args.pictures {
+        write_pictures(folder, &comparison, &shooter, &reports)?;
+    }
     Ok(verdict(&args, &reports, console))
+}
+
+/// The worst window of all, as three PNGs.
+fn write_pictures(
+    folder: &Path,
+    comparison: &Comparison<'_>,
+    shooter: &Shooter,
+    reports: &[ZoomReport],
+) -> Outcome<()> {
+    let windows = reports.iter().map(ZoomReport::worst);
+    let db = |window: &Window| window.difference.psnr_db;
+    let Some(worst) = windows.min_by(|a, b| db(a).total_cmp(&db(b))) else {
+        return Ok(());
+    };
+    let truth = comparison.truth(worst.view)?;
+    let picture = comparison.as_compared(shooter.shoot(comparison.shot(worst.view))?);
+    let apart = metrics::difference_picture(&truth, &picture, 4.0);
+    output::create_folder(folder)?;
+    for (name, picture) in [("svg", &truth), ("vtex", &picture), ("difference", &apart)] {
+        output::write(&folder.join(format!("{name}.png")), &picture.to_png()?)?;
+    }
+    Ok(())
 }
 
 fn terms(args: &Compare, file: &VtexFile) -> Terms {

@@ -1,0 +1,310 @@
+//! The brute-force painter: what a lookup must return, from the outlines and nothing else.
+//!
+//! It shares with curve cells what they store - monotone lines and quadratics between lattice
+//! points, see [`LoweredOutline`] - and none of what they do with it: no cells, no cuts, no steps,
+//! no layers, no f32.
+
+use kurbo::{Affine, Point, Rect};
+use vtex_format::{COVERAGE_CURVES, Grid, VtexFile};
+use vtex_shaders::cpu::color::decode;
+
+use crate::{
+    BakeError,
+    config::{BakeConfig, Resources},
+    cover::flatness_units,
+    curves::lower::{LoweredOutline, Segment},
+    drawing::{FillRule, Item, Shape},
+    geometry::floor_index,
+    grid::Lattice,
+    prepare::clean,
+};
+
+/// Bands of heights that segments are sorted into.
+const ROWS: usize = 4096;
+/// Places along a segment in each round of the search for its nearest point.
+const PLACES: u32 = 64;
+
+/// Paints one point at a time from the outlines of a drawing; slow, and meant for verification.
+#[derive(Debug)]
+pub struct Painter {
+    units_per_uv: [f64; 2],
+    offset_units: [f64; 2],
+    /// Front to back.
+    shapes: Vec<Painted>,
+    /// All shapes' segments, shape by shape from the front.
+    segments: Vec<Segment>,
+    /// For each band, from the top: indices of `segments` that reach into it, ascending.
+    rows: Vec<Vec<u32>>,
+    rows_per_unit: f64,
+}
+
+#[derive(Debug)]
+struct Painted {
+    color: [f32; 4],
+    rule: FillRule,
+    /// One behind its last segment.
+    end: u32,
+}
+
+impl Painter {
+    /// Draws `svg` as [`crate::bake`] does and lowers every outline to the lattice of `file`, which
+    /// was baked from it with `config`.
+    ///
+    /// `None` when the file holds more than shapes that are curves of a solid colour.
+    ///
+    /// # Errors
+    /// As [`crate::bake`].
+    pub fn new(
+        svg: &[u8],
+        config: &BakeConfig,
+        resources: &Resources,
+        file: &VtexFile,
+    ) -> Result<Option<Self>, BakeError> {
+        let drawing = crate::draw(svg, config, resources, &|_| ())?;
+        let all_curves = file.shapes.iter().all(|s| s.coverage == COVERAGE_CURVES);
+        let Some(lattice) = file.meta.curve_lattice.filter(|_| all_curves) else {
+            return Ok(None);
+        };
+        let steps = lattice_of(file.meta.grid, drawing.canvas_size);
+        let units_per_step = f64::from(lattice.units_per_cell) / steps.cell_steps();
+        let units_from_canvas = Affine::scale(units_per_step) * steps.lattice_from_canvas;
+        let canvas = steps.canvas.scale_from_origin(units_per_step);
+        let rows = f64::from(file.meta.grid.size_cells[1] * lattice.units_per_cell);
+        let mut painter = Self {
+            units_per_uv: [canvas.width(), canvas.height()],
+            offset_units: [canvas.x0, canvas.y0],
+            shapes: Vec::new(),
+            segments: Vec::new(),
+            rows: vec![Vec::new(); ROWS],
+            rows_per_unit: ROWS as f64 / rows,
+        };
+        let tolerance = f64::from(flatness_units(&steps, lattice, config.max_zoom));
+        let canvas_longer = drawing.canvas_size[0].max(drawing.canvas_size[1]);
+        for item in drawing.items.iter().rev() {
+            let Item::Shape(shape) = item else {
+                return Ok(None);
+            };
+            let outline = units_from_canvas * clean(&shape.outline, canvas_longer);
+            let Ok(lowered) = LoweredOutline::new(&outline, tolerance) else {
+                return Ok(None);
+            };
+            painter.push(shape, lowered);
+        }
+        painter.sort_into_rows();
+        Ok(Some(painter))
+    }
+
+    fn push(&mut self, shape: &Shape, lowered: LoweredOutline) {
+        self.segments.extend(lowered.segments);
+        self.shapes.push(Painted {
+            color: shape.color,
+            rule: shape.fill_rule,
+            end: u32::try_from(self.segments.len()).unwrap_or(u32::MAX),
+        });
+    }
+
+    fn sort_into_rows(&mut self) {
+        for (index, segment) in (0_u32..).zip(&self.segments) {
+            let [first, last] = [segment.start.y, segment.end.y].map(|y| self.row_of(y));
+            for row in &mut self.rows[first..=last] {
+                row.push(index);
+            }
+        }
+    }
+
+    fn row_of(&self, y: f64) -> usize {
+        floor_index((y * self.rows_per_unit).clamp(0.0, ROWS as f64 - 1.0))
+    }
+
+    fn point(&self, uv: [f32; 2]) -> Point {
+        let [x, y] = [0, 1]
+            .map(|axis| f64::from(uv[axis]) * self.units_per_uv[axis] + self.offset_units[axis]);
+        Point::new(x, y)
+    }
+
+    /// The uv of a random end of a segment, of the one drawn by `lot`: where cuts and comparisons
+    /// meet. `None` when nothing is drawn.
+    pub fn corner(&self, lot: u64) -> Option<[f64; 2]> {
+        let count = self.segments.len() as u64;
+        let index = usize::try_from(lot % count.max(1)).ok()?;
+        let corner = self.segments.get(index)?.start;
+        let axis = |axis: usize, at: f64| (at - self.offset_units[axis]) / self.units_per_uv[axis];
+        Some([axis(0, corner.x), axis(1, corner.y)])
+    }
+
+    /// What a point lookup at `uv`, in \[0, 1\]^2, returns: linear light, premultiplied.
+    pub fn color(&self, uv: [f32; 2]) -> [f32; 4] {
+        let p = self.point(uv);
+        let mut row = self.rows[self.row_of(p.y)].iter().copied().peekable();
+        let mut behind = self.shapes.as_slice();
+        let mut out = [0.0; 4];
+        // What no segment of the row belongs to is not there.
+        while let Some(&next) = row.peek() {
+            let shape = behind.partition_point(|shape| shape.end <= next);
+            let Some(shape_here) = behind.get(shape) else {
+                break;
+            };
+            let mut winding = 0;
+            while let Some(index) = row.next_if(|&index| index < shape_here.end) {
+                winding += crossing(&self.segments[index as usize], p);
+            }
+            if shape_here.rule.fills(winding) {
+                under(&mut out, shape_here.color);
+            }
+            if out[3] >= 1.0 {
+                break;
+            }
+            behind = &behind[shape + 1..];
+        }
+        linear(out)
+    }
+
+    /// Distance from `uv` to the nearest outline of any shape, in units of the file's curve
+    /// lattice; infinite beyond `reach_units`.
+    pub fn edge_distance_units(&self, uv: [f32; 2], reach_units: f64) -> f64 {
+        let p = self.point(uv);
+        let rows = self.row_of(p.y - reach_units)..=self.row_of(p.y + reach_units);
+        let near = self.rows[rows].iter().flatten().map(|&index| {
+            let segment = &self.segments[index as usize];
+            let beside = p.x < segment.x_min() - reach_units || p.x > segment.x_max() + reach_units;
+            if beside {
+                f64::INFINITY
+            } else {
+                distance(segment, p)
+            }
+        });
+        let nearest = near.fold(f64::INFINITY, f64::min);
+        if nearest <= reach_units {
+            nearest
+        } else {
+            f64::INFINITY
+        }
+    }
+}
+
+/// The lattice of a stored grid.
+fn lattice_of(grid: Grid, canvas_size: [f64; 2]) -> Lattice {
+    let steps = f64::from(grid.texels_per_cell);
+    let size = grid
+        .cell_from_uv_scale
+        .map(|cells| f64::from(cells) * steps);
+    let corner = grid
+        .cell_from_uv_offset
+        .map(|cells| f64::from(cells) * steps);
+    let scale = [0, 1].map(|axis| size[axis] / canvas_size[axis]);
+    Lattice {
+        grid,
+        lattice_from_canvas: Affine::new([scale[0], 0.0, 0.0, scale[1], corner[0], corner[1]]),
+        canvas: Rect::from_origin_size((corner[0], corner[1]), (size[0], size[1])),
+    }
+}
+
+/// What `segment` adds to the winding at `p`: it counts where it is met to the left of `p`.
+fn crossing(segment: &Segment, p: Point) -> i32 {
+    let crosses = segment.start.y <= p.y && p.y < segment.end.y;
+    if !crosses || p.x < segment.x_min() {
+        return 0;
+    }
+    let met = p.x >= segment.x_max() || p.x >= x_at(segment, p.y);
+    if met { segment.direction } else { 0 }
+}
+
+/// Where the segment is at height `y`, by halving: y grows along it.
+fn x_at(segment: &Segment, y: f64) -> f64 {
+    let (mut low, mut high) = (0.0_f64, 1.0_f64);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if segment.blossom(middle, middle).y <= y {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    segment.blossom(low, low).x
+}
+
+fn distance(segment: &Segment, p: Point) -> f64 {
+    let (mut from, mut to) = (0.0, 1.0);
+    let mut best = (f64::INFINITY, 0.0);
+    // Each round looks about the best place of the one before, 32 times as closely.
+    for _ in 0..5 {
+        let step = (to - from) / f64::from(PLACES);
+        for place in 0..=PLACES {
+            let t = from + step * f64::from(place);
+            let far = segment.blossom(t, t).distance(p);
+            if far < best.0 {
+                best = (far, t);
+            }
+        }
+        (from, to) = ((best.1 - step).max(0.0), (best.1 + step).min(1.0));
+    }
+    best.0
+}
+
+/// Puts a straight-alpha colour behind a premultiplied one, in f64: rounding must not depend on how
+/// entries were merged.
+fn under(out: &mut [f64; 4], [r, g, b, a]: [f32; 4]) {
+    let shown = (1.0 - out[3]) * f64::from(a);
+    for (sum, channel) in out.iter_mut().zip([r, g, b, 1.0]) {
+        *sum += shown * f64::from(channel);
+    }
+}
+
+fn linear(premultiplied: [f64; 4]) -> [f32; 4] {
+    let [r, g, b, a] = premultiplied;
+    if a <= 0.0 {
+        return [0.0; 4];
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "lookups return f32")]
+    let [straight @ .., alpha] = [r / a, g / a, b / a, a].map(|c| c as f32);
+    let [r, g, b] = decode(straight).map(|c| c * alpha);
+    [r, g, b, alpha]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn painter(svg: &str) -> Painter {
+        let (config, resources) = (BakeConfig::default(), Resources::default());
+        let file = crate::bake(svg.as_bytes(), &config, &resources).unwrap();
+        let painter = Painter::new(svg.as_bytes(), &config, &resources, &file);
+        painter.unwrap().unwrap()
+    }
+
+    #[test]
+    fn what_is_in_front_shows() {
+        let painter = painter(
+            "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 10 10'>\
+             <path d='M2 2H8V8H2z' fill='#f00'/><circle cx='5' cy='5' r='1' fill='#00f'/>\
+             <path d='M6 2H8V8H6z' fill='#fff' fill-opacity='.5'/></svg>",
+        );
+        assert_eq!(painter.color([0.1, 0.5]), [0.0; 4]);
+        assert_eq!(painter.color([0.3, 0.5]), [1.0, 0.0, 0.0, 1.0]);
+        assert_eq!(painter.color([0.5, 0.5]), [0.0, 0.0, 1.0, 1.0]);
+        let [r, g, b, a] = painter.color([0.7, 0.5]);
+        let half = decode([0.5; 3])[0];
+        assert!(
+            (g - half).abs() < 1e-6 && (b - half).abs() < 1e-6,
+            "{g} {b}"
+        );
+        assert_eq!([r, a], [1.0; 2]);
+    }
+
+    #[test]
+    fn distances_are_in_units_of_the_lattice() {
+        let painter = painter(
+            "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 10 10'>\
+             <circle cx='5' cy='5' r='3'/></svg>",
+        );
+        let step = 1.0 / painter.units_per_uv[0];
+        for (off, expected) in [(3.0, 3.0), (-3.0, 3.0), (0.0, 0.0)] {
+            let x = 0.8 + off * step;
+            #[expect(clippy::cast_possible_truncation, reason = "lookups take f32")]
+            let found = painter.edge_distance_units([x as f32, 0.5], 20.0);
+            // The lattice, lowering and f32 of the lookup: a unit or two.
+            assert!((found - expected).abs() < 2.0, "{off}: {found}");
+        }
+        assert!(painter.edge_distance_units([0.5, 0.5], 20.0).is_infinite());
+    }
+}

@@ -1,0 +1,263 @@
+//! Point lookups, twin and GPU, against the brute-force painter: random places of whole pictures.
+//!
+//! `cargo test` takes 20,000 places of the project's own drawings and of a dozen of the corpus.
+//! With `VTEX_SLOW=1` it takes `VTEX_POINTS` (default 1,000,000) of every solid drawing of the
+//! corpus named by `VTEX_CORPUS`, those whose path contains `VTEX_FILTER` if that is set, and
+//! writes `lookups.csv` to the folder named by `VTEX_REPORT`. A tenth as many places more lie at
+//! heights of corners.
+
+#![expect(clippy::print_stdout, reason = "the figures are wanted")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use rayon::prelude::*;
+use vtex_baker::{BakeConfig, Painter, Resources, bake};
+use vtex_format::VtexFile;
+use vtex_runtime::{BatchQuery, BatchSampler, FilterMode, Gpu, LoadOptions, Trust};
+use vtex_shaders::{PackOptions, cpu, pack};
+use vtex_tests::random::Random;
+
+/// A lookup may fall on the other side of an edge that is this near, in units of the curve lattice:
+/// f32 coordinates of 64 cells move it by up to 0.4, cuts at cells the outline by up to 0.5. (Lines
+/// in place of flat quadratics may add to that, up to 1.25 at `max_zoom` 256; of 158 million lookups
+/// in 144 drawings none that differed was further off than 0.62.)
+const BAND_UNITS: f64 = 1.0;
+/// How far from an edge a mismatch is still given a distance.
+const REACH_UNITS: f64 = 64.0;
+/// Colours that differ by less are equal: f32 composites of a few hundred translucent paints.
+const SAME_COLOR: f32 = 2e-4;
+
+/// What lookups were compared with, and how they fared.
+#[derive(Clone, Copy, Debug, Default)]
+struct Tally {
+    /// Other colour than the painter's, further than [`BAND_UNITS`] from any edge.
+    wrong: usize,
+    /// Other colour, nearer: of the places all over the canvas, and of those at heights of corners.
+    near: [usize; 2],
+    /// The largest distance of one from an edge.
+    far_units: f64,
+    /// Where the furthest was.
+    at: [f32; 2],
+}
+
+/// A drawing with its file and its painter.
+struct Subject {
+    file: VtexFile,
+    painter: Painter,
+    expected: Vec<[f32; 4]>,
+    places: Vec<[f32; 2]>,
+    /// How many of the places are random in both directions; they come first.
+    random: usize,
+}
+
+impl Subject {
+    /// `None` when the drawing holds more than solid shapes.
+    fn new(svg: &[u8], resources: &Resources, max_zoom: f32, points: usize) -> Option<Self> {
+        let config = BakeConfig {
+            max_zoom,
+            ..BakeConfig::default()
+        };
+        let file = bake(svg, &config, resources).ok()?;
+        let painter = Painter::new(svg, &config, resources, &file).unwrap()?;
+        let places = places(&painter, points);
+        let expected = places.par_iter().map(|&uv| painter.color(uv)).collect();
+        Some(Self {
+            file,
+            painter,
+            expected,
+            places,
+            random: points,
+        })
+    }
+
+    fn tally(&self, seen: &[[f32; 4]]) -> Tally {
+        let mut tally = Tally::default();
+        assert_eq!(seen.len(), self.expected.len(), "one answer a lookup");
+        let pairs = seen.iter().zip(&self.expected).zip(&self.places);
+        for (index, ((seen, expected), &uv)) in pairs.enumerate() {
+            let same = seen
+                .iter()
+                .zip(expected)
+                .all(|(a, b)| (a - b).abs() <= SAME_COLOR);
+            if same {
+                continue;
+            }
+            let distance = self.painter.edge_distance_units(uv, REACH_UNITS);
+            tally.wrong += usize::from(distance > BAND_UNITS);
+            tally.near[usize::from(index >= self.random)] += usize::from(distance <= BAND_UNITS);
+            if distance > tally.far_units {
+                (tally.far_units, tally.at) = (distance, uv);
+            }
+        }
+        tally
+    }
+
+    fn twin(&self) -> Tally {
+        let words = pack(&self.file, &options().pack);
+        let sampler = cpu::Sampler::new(&words);
+        let look = |&uv: &[f32; 2]| sampler.sample(uv, [0.0; 4]);
+        self.tally(&self.places.par_iter().map(look).collect::<Vec<_>>())
+    }
+
+    fn gpu(&self, gpu: &Gpu) -> Tally {
+        let trust = Trust::Regenerate;
+        let sampler = BatchSampler::new(&gpu.device, &gpu.queue, &self.file, &options(), trust);
+        let query = |&uv: &[f32; 2]| BatchQuery {
+            uv,
+            ..BatchQuery::default()
+        };
+        let queries: Vec<BatchQuery> = self.places.iter().map(query).collect();
+        self.tally(&sampler.unwrap().sample(&queries).unwrap())
+    }
+}
+
+fn options() -> LoadOptions {
+    LoadOptions {
+        pack: PackOptions {
+            filter: FilterMode::Point,
+            ..PackOptions::default()
+        },
+    }
+}
+
+/// `count` places all over the canvas, and a tenth as many at the height of some corner of an
+/// outline, where comparisons of heights could disagree.
+fn places(painter: &Painter, count: usize) -> Vec<[f32; 2]> {
+    let mut random = Random::new(20);
+    let mut places: Vec<[f32; 2]> = (0..count).map(|_| [random.unit(), random.unit()]).collect();
+    let corners = (0..count / 10).filter_map(|_| {
+        let [_, v] = painter.corner(u64::from(random.bits()))?;
+        #[expect(clippy::cast_possible_truncation, reason = "lookups take f32")]
+        let v = v as f32;
+        Some([random.unit(), v.clamp(0.0, 1.0)])
+    });
+    places.extend(corners);
+    places
+}
+
+/// The adapter, or `None` when tests on it are switched off.
+fn gpu() -> Option<Gpu> {
+    if std::env::var("VTEX_GPU").is_ok_and(|value| value == "off") {
+        println!("no lookups on the GPU: VTEX_GPU=off");
+        return None;
+    }
+    let gpu = Gpu::headless().expect("an adapter; VTEX_GPU=off skips these tests");
+    gpu.device
+        .on_uncaptured_error(Arc::new(|error| panic!("{error}")));
+    Some(gpu)
+}
+
+fn svg_files(folder: &Path, found: &mut Vec<PathBuf>) {
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return;
+    };
+    for path in entries.map(|entry| entry.unwrap().path()) {
+        if path.is_dir() && !path.ends_with("hostile") {
+            svg_files(&path, found);
+        } else if path
+            .extension()
+            .is_some_and(|end| end == "svg" || end == "svgz")
+        {
+            found.push(path);
+        }
+    }
+    found.sort();
+}
+
+/// Compares `files`; `(solid ones, lookups further off than rounding explains, report)`.
+fn compare(files: &[PathBuf], resources: &Resources, points: usize) -> (usize, usize, String) {
+    let gpu = gpu();
+    let mut report = String::from(
+        "file,points,twin_wrong,twin_near,twin_near_corners,twin_far_units,\
+         gpu_wrong,gpu_near,gpu_near_corners,gpu_far_units\n",
+    );
+    let (mut solid, mut wrong) = (0, 0);
+    for path in files {
+        let svg = std::fs::read(path).unwrap();
+        let Some(subject) = Subject::new(&svg, resources, 256.0, points) else {
+            continue;
+        };
+        solid += 1;
+        let name = path
+            .file_name()
+            .unwrap()
+            .display()
+            .to_string()
+            .replace(',', "_");
+        write!(report, "{name},{points}").unwrap();
+        let gpu = gpu.as_ref().map(|gpu| subject.gpu(gpu));
+        for (backend, tally) in [("twin", Some(subject.twin())), ("gpu", gpu)] {
+            let Some(tally) = tally else { continue };
+            let ([near, corners], far) = (tally.near, tally.far_units);
+            write!(report, ",{},{near},{corners},{far:.3}", tally.wrong).unwrap();
+            wrong += tally.wrong;
+            if tally.wrong > 0 {
+                println!("{name}, {backend}: {tally:?}");
+            }
+        }
+        report.push('\n');
+        println!("{}", report.lines().last().unwrap());
+    }
+    (solid, wrong, report)
+}
+
+fn corpus() -> PathBuf {
+    std::env::var_os("VTEX_CORPUS").map_or_else(
+        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus"),
+        PathBuf::from,
+    )
+}
+
+#[test]
+fn own_drawings_look_as_the_painter_paints_them() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/svg");
+    let mut files = Vec::new();
+    svg_files(&folder, &mut files);
+    let (solid, wrong, _) = compare(&files, &Resources::default(), 20_000);
+    assert!(solid >= 25, "only {solid} drawings are solid");
+    assert_eq!(wrong, 0);
+}
+
+#[test]
+fn a_dozen_of_the_corpus_look_as_the_painter_paints_them() {
+    let mut files = Vec::new();
+    svg_files(&corpus(), &mut files);
+    if files.is_empty() {
+        println!("not run: no corpus");
+        return;
+    }
+    // Spread over all folders.
+    let files: Vec<PathBuf> = files.iter().step_by(files.len() / 16).cloned().collect();
+    let (solid, wrong, _) = compare(&files, &Resources::default(), 20_000);
+    assert!(solid > 0);
+    assert_eq!(wrong, 0);
+}
+
+#[test]
+fn the_solid_corpus_looks_as_the_painter_paints_it() {
+    if std::env::var_os("VTEX_SLOW").is_none_or(|value| value != "1") {
+        println!("not run: wants VTEX_SLOW=1");
+        return;
+    }
+    let mut files = Vec::new();
+    svg_files(&corpus(), &mut files);
+    let wanted = std::env::var("VTEX_FILTER").unwrap_or_default();
+    files.retain(|path| path.to_string_lossy().contains(&wanted));
+    let points = std::env::var("VTEX_POINTS").map_or(1_000_000, |text| text.parse().unwrap());
+    let mut fonts = usvg::fontdb::Database::new();
+    if let Some(folder) = std::env::var_os("VTEX_FONTS") {
+        fonts.load_fonts_dir(folder);
+    }
+    let resources = Resources {
+        fonts: fonts.into(),
+    };
+    let (solid, wrong, report) = compare(&files, &resources, points);
+    if let Some(folder) = std::env::var_os("VTEX_REPORT") {
+        std::fs::write(Path::new(&folder).join("lookups.csv"), &report).unwrap();
+    }
+    println!("{solid} solid drawings of {}", files.len());
+    assert_eq!(wrong, 0);
+}
