@@ -1,18 +1,19 @@
 //! From the drawing to the file: runs the stages in order and fills the records.
 
 use rayon::prelude::*;
-use vtex_format::{Image, LayerRecord, Outline, VtexFile};
+use vtex_format::{CurveLattice, CurveSources, Image, LayerRecord, Outline, VtexFile};
 
 use vtex_shaders::{SpecParts, shader_blob, spec_key_from_parts};
 
 use crate::{
     cells::{CellInput, CellLists, build_cells},
     config::{BakeConfig, Stage},
-    cover::{cover, curve_lattice, flatness_units, patch_failures},
+    cover::{Cover, cover, curve_lattice, flatness_units, patch_failures},
+    curves::CurveError,
     drawing::Drawing,
     error::BakeError,
     grid::Lattice,
-    judge::{Judgement, all_curves, judge},
+    judge::{Judgement, Verdict, all_curves, judge},
     msdf::{TileShape, TileSpec, render_tile},
     paint_table::PaintTable,
     patch::PatchSettings,
@@ -43,32 +44,13 @@ pub(crate) fn assemble(
         verdicts,
         msdf_size,
     } = judge(&drawing, config, mip0_size);
-    let curves_alone = all_curves(&drawing, &verdicts);
-    let mut lattice = if curves_alone {
-        Lattice::for_curves(drawing.canvas_size, msdf_size, mip0_size)
-    } else {
-        Lattice::new(drawing.canvas_size, msdf_size)
-    };
-    let attempt = |lattice: &Lattice| {
-        let scales = Scales::new(config, lattice, mip0_size);
-        let placed = place(&drawing, lattice, &verdicts);
-        let covers = cover(&placed, lattice, &scales, config.max_zoom);
-        (scales, placed, covers)
-    };
-    let (mut scales, mut placed, mut covers) = attempt(&lattice);
-    // What is too much for a cell may not be for its parts.
-    while curves_alone && covers.iter().any(Result::is_err) {
-        let Some(halved) = lattice.halved(drawing.canvas_size, mip0_size) else {
-            break;
-        };
-        lattice = halved;
-        (scales, placed, covers) = attempt(&lattice);
-    }
-    let settings = PatchSettings {
-        canvas_size: drawing.canvas_size,
-        mip0_size: config.mip0_size,
-        max_zoom: f64::from(config.max_zoom),
-    };
+    let Laid {
+        lattice,
+        scales,
+        mut placed,
+        covers,
+    } = lay(&drawing, &verdicts, config, msdf_size, mip0_size);
+    let settings = PatchSettings::new(drawing.canvas_size, config);
     let covers = patch_failures(covers, &mut drawing, &mut placed, &lattice, settings);
 
     observer(Stage::Pack);
@@ -100,9 +82,7 @@ pub(crate) fn assemble(
     let curve_lattice = curve_lattice(&placed, &lattice, &scales, config.max_zoom)
         .filter(|_| !lists.curves.is_empty());
     let sources = curve_lattice.and_then(|curve_lattice| {
-        let flatness = flatness_units(&lattice, curve_lattice, config.max_zoom);
-        sources(&covers, &lists.sources, flatness)
-            .filter(|sources| sources.is_cuttable(&lattice.grid, curve_lattice))
+        stored_outlines(&input, &lists, &lattice, curve_lattice, config.max_zoom)
     });
     let meta = records::meta(&drawing, config, &lattice, curve_lattice, &scales, outline);
     let shapes = records::shape_records(&input, &lattice);
@@ -138,6 +118,64 @@ pub(crate) fn assemble(
         )),
         images: records::images(drawing, mips),
     })
+}
+
+/// The outlines that a reader makes the curve records from, where it can.
+fn stored_outlines(
+    input: &CellInput<'_>,
+    lists: &CellLists,
+    lattice: &Lattice,
+    curve_lattice: CurveLattice,
+    max_zoom: f32,
+) -> Option<CurveSources> {
+    let flatness = flatness_units(lattice, curve_lattice, max_zoom);
+    sources(input.covers, &lists.sources, flatness)
+        .filter(|sources| sources.is_cuttable(&lattice.grid, curve_lattice))
+}
+
+/// A drawing on its grid.
+struct Laid {
+    lattice: Lattice,
+    scales: Scales,
+    placed: Vec<Placed>,
+    covers: Vec<Result<Cover, CurveError>>,
+}
+
+/// Lays the drawing on the coarsest grid whose cells have room for its outlines.
+fn lay(
+    drawing: &Drawing,
+    verdicts: &[Verdict],
+    config: &BakeConfig,
+    msdf_size: u32,
+    mip0_size: u32,
+) -> Laid {
+    let on = |lattice: Lattice| {
+        let scales = Scales::new(config, &lattice, mip0_size);
+        let placed = place(drawing, &lattice, verdicts);
+        let covers = cover(&placed, &lattice, &scales, config.max_zoom);
+        Laid {
+            lattice,
+            scales,
+            placed,
+            covers,
+        }
+    };
+    if !all_curves(drawing, verdicts) {
+        return on(Lattice::new(drawing.canvas_size, msdf_size));
+    }
+    let mut laid = on(Lattice::for_curves(
+        drawing.canvas_size,
+        msdf_size,
+        mip0_size,
+    ));
+    // What is too much for a cell may not be for its parts.
+    while laid.covers.iter().any(Result::is_err) {
+        let Some(halved) = laid.lattice.halved(drawing.canvas_size, mip0_size) else {
+            break;
+        };
+        laid = on(halved);
+    }
+    laid
 }
 
 fn pack_items(placed: &[Placed], lattice: &Lattice, scales: &Scales, merge: bool) -> Packing {

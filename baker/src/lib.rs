@@ -116,11 +116,7 @@ fn draw(
         stroke_color: config.stroke_color,
     };
     let plan = svg::plan(&tree, options, &warnings)?;
-    let settings = PatchSettings {
-        canvas_size: plan.canvas_size,
-        mip0_size: config.mip0_size,
-        max_zoom: f64::from(config.max_zoom),
-    };
+    let settings = PatchSettings::new(plan.canvas_size, config);
     let mut items = patch::resolve(plan, settings, &warnings);
     if items.is_empty() {
         warnings.push(

@@ -8,6 +8,7 @@ use tiny_skia::{Pixmap, Transform};
 use vtex_format::WarningCode;
 
 use crate::color;
+use crate::config::BakeConfig;
 use crate::drawing::{Item, Patch};
 use crate::mips::{self, LinearImage};
 use crate::raster::{self, View};
@@ -184,6 +185,15 @@ fn warn_coarse(warnings: &Warnings) {
 type Window = [u32; 4];
 
 impl PatchSettings {
+    /// Of a bake of a canvas of `canvas_size`.
+    pub(crate) fn new(canvas_size: [f64; 2], config: &BakeConfig) -> Self {
+        Self {
+            canvas_size,
+            mip0_size: config.mip0_size,
+            max_zoom: f64::from(config.max_zoom),
+        }
+    }
+
     fn finest_density(self) -> f64 {
         FINEST_DENSITY.min(self.max_zoom.max(1.0))
     }
