@@ -99,6 +99,8 @@ fn raster_file(like: &VtexFile, image: Image) -> VtexFile {
         shapes: Vec::new(),
         layers: Vec::new(),
         tiles: Vec::new(),
+        curves: Vec::new(),
+        sources: None,
         provenance: None,
         ..like.clone()
     };
@@ -110,6 +112,7 @@ fn raster_file(like: &VtexFile, image: Image) -> VtexFile {
         cell_from_uv_offset: [0.0, 0.0],
         ..like.meta.grid
     };
+    file.meta.curve_lattice = None;
     file.spec.features = 0;
     file.spec = SpecKey::for_file(&file);
     file
