@@ -1,4 +1,3 @@
-//!use core/layout
 //!use vtex/footprint
 //!use vtex/paint
 //!use vtex/source
@@ -7,11 +6,13 @@
 struct VtexHit {
     alpha: f32,
     through: f32,
+    // Of a cell of one colour.
+    solid: bool,
     paint: u32,
 }
 
 fn vtex_hit_solid(shows: bool, paint: u32) -> VtexHit {
-    return VtexHit(0.0, 1.0, select(VTEX_ITEM_INDEX_MASK, paint, shows));
+    return VtexHit(0.0, 1.0, shows, paint);
 }
 
 // Takes in an entry that `covers` the lookup or not; whether what lies behind it can show.
@@ -31,7 +32,7 @@ fn vtex_hit(
 }
 
 fn vtex_hit_value(vt: VtexTexture, hit: VtexHit) -> VtexValue {
-    if hit.paint != VTEX_ITEM_INDEX_MASK {
+    if hit.solid {
         return vtex_paint_solid(vt, hit.paint);
     }
     return hit.alpha;

@@ -1,4 +1,3 @@
-//!use core/layout
 //!use core/decode
 //!use vtex/footprint
 //!use vtex/paint
@@ -11,11 +10,13 @@ struct VtexHit {
     only: vec4f,
     count: u32,
     color: vec4f,
+    // Of a cell of one colour.
+    solid: bool,
     paint: u32,
 }
 
 fn vtex_hit_solid(shows: bool, paint: u32) -> VtexHit {
-    return VtexHit(vec4f(0.0), 0u, vec4f(0.0), select(VTEX_ITEM_INDEX_MASK, paint, shows));
+    return VtexHit(vec4f(0.0), 0u, vec4f(0.0), shows, paint);
 }
 
 // Takes in an entry that `covers` the lookup or not; whether what lies behind it can show.
@@ -41,7 +42,7 @@ fn vtex_hit_value(vt: VtexTexture, hit: VtexHit) -> vec4f {
     if hit.count > 1u {
         return vtex_color_decode_premultiplied(hit.color);
     }
-    if hit.paint != VTEX_ITEM_INDEX_MASK {
+    if hit.solid {
         return vtex_paint_solid(vt, hit.paint);
     }
     return hit.only;
