@@ -35,7 +35,7 @@ const SCENE: Settings = Settings {
 };
 
 const INTRODUCTION: &str = "Each drawing at 1, 8, 32 and 256 times, looked up in three ways with \
-    16 samples a pixel: drawn anew from the SVG by resvg (256 samples a pixel, the truth), from \
+    16 samples a pixel: drawn anew from the SVG (257 samples a pixel, the truth), from \
     the .vtex file, and from a raster texture of 4096 texels with mips as engines use today. PSNR \
     is against the truth, over white; higher is better.";
 
