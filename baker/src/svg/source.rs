@@ -17,7 +17,8 @@ const MAX_SEGMENTS: usize = 1 << 22;
 /// Longer side of the canvas over the shorter one. Beyond it mip 0 has no texels for a side.
 const MAX_ASPECT: f32 = 4096.0;
 
-const GZIP_MAGIC: [u8; 2] = [0x1f, 0x8b];
+/// How gzip streams begin.
+pub(super) const GZIP_MAGIC: [u8; 2] = [0x1f, 0x8b];
 
 /// Parses an SVG or SVGZ at 96 dpi with the given fonts.
 pub(crate) fn parse(
@@ -32,6 +33,24 @@ pub(crate) fn parse(
     } else {
         svg
     };
+    let text = checked_text(bytes)?;
+    let options = usvg::Options {
+        dpi: 96.0,
+        image_href_resolver: images::resolver(warnings, resources.images.as_ref()),
+        font_resolver: fonts::resolver(warnings),
+        fontdb: resources.fonts.clone(),
+        ..usvg::Options::default()
+    };
+    // usvg is not known to panic, but it reads files nobody vouches for.
+    let tree = catch_unwind(AssertUnwindSafe(|| usvg::Tree::from_str(text, &options)))
+        .map_err(|_| BakeError::Svg("the SVG parser failed".to_owned()))?
+        .map_err(|e| bake_error(&e))?;
+    check_size(&tree)?;
+    Ok(tree)
+}
+
+/// SVG text that is no longer than allowed, with its entities expanded too.
+pub(super) fn checked_text(bytes: &[u8]) -> Result<&str, BakeError> {
     if bytes.len() > MAX_SVG_BYTES {
         return Err(too_many_bytes());
     }
@@ -45,19 +64,7 @@ pub(crate) fn parse(
             "entities expand to too much text".to_owned(),
         ));
     }
-    let options = usvg::Options {
-        dpi: 96.0,
-        image_href_resolver: images::resolver(warnings),
-        font_resolver: fonts::resolver(warnings),
-        fontdb: resources.fonts.clone(),
-        ..usvg::Options::default()
-    };
-    // usvg is not known to panic, but it reads files nobody vouches for.
-    let tree = catch_unwind(AssertUnwindSafe(|| usvg::Tree::from_str(text, &options)))
-        .map_err(|_| BakeError::Svg("the SVG parser failed".to_owned()))?
-        .map_err(|e| bake_error(&e))?;
-    check_size(&tree)?;
-    Ok(tree)
+    Ok(text)
 }
 
 fn gunzip(svgz: &[u8]) -> Result<Vec<u8>, BakeError> {
