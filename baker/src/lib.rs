@@ -16,9 +16,9 @@
 //! starts ([`BakeError::Limit`]): bytes of text, packed, unpacked and with entities expanded; nodes,
 //! segments and nesting; pixels of images; the work of filters. That bounds what is known to grow,
 //! but a call cannot be cancelled, an allocation that the system refuses ends the process, and so
-//! does a stack that is too small: nesting is bounded for threads with 16 MiB. Who bakes input that
-//! nobody vouches for runs the bake in a process of its own with limits of time and memory, as
-//! `vtex bake` does.
+//! does a stack that is too small: up to 1024 levels nest, for which `vtex bake` gives the threads
+//! of its rayon pool 64 MiB each. Who bakes input that nobody vouches for does that in such a pool
+//! and in a process of its own with limits of time and memory, as `vtex bake` does.
 
 mod cells;
 #[cfg(test)]

@@ -151,7 +151,10 @@ mod tests {
 
     /// `inner` as an image of an SVG.
     fn framed(inner: &str) -> String {
-        let quoted = inner.replace('%', "%25").replace('"', "%22");
+        let quoted = inner
+            .replace('%', "%25")
+            .replace('"', "%22")
+            .replace('<', "%3C");
         format!(
             "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'><image width='9' \
              height='9' href=\"data:image/svg+xml,{quoted}\"/></svg>"

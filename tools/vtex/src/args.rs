@@ -50,6 +50,7 @@ pub struct Global {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Bake SVG into .vtex
+    #[command(after_help = PROCESSES)]
     Bake(Box<Bake>),
     /// Say what is in a .vtex file
     Info(Info),
@@ -71,6 +72,10 @@ pub enum Command {
     #[command(hide = true)]
     Worker(Worker),
 }
+
+const PROCESSES: &str = "Files are baked in processes of their own, --threads of them at a time. A \
+    process that takes longer than --timeout for one file or more than --max-memory is ended: the \
+    file gets exit code 8, the others are baked all the same.";
 
 const METRICS: &str = "The truth is resvg without anti-aliasing at 257 samples a pixel, \
     averaged in linear light. Both pictures are laid over white in linear light and sRGB-encoded; \

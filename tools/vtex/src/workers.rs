@@ -199,8 +199,10 @@ impl Worker {
             let _ = stderr.take(MAX_LAST_WORDS).read_to_end(&mut words);
         }
         let words = String::from_utf8_lossy(&words);
-        // The words of Rust's runtime, which has no other sign for either.
-        if words.contains("memory allocation of") {
+        // Its own exit code when the SVG does not fit; else the words of Rust's runtime, which
+        // gives no other sign of what it aborts for.
+        let no_room = status.and_then(|s| s.code()) == Some(ExitCode::Limit as i32);
+        if no_room || words.contains("memory allocation of") {
             Death::Memory
         } else if words.contains("has overflowed its stack") {
             Death::Stack

@@ -51,12 +51,20 @@ fn requests() -> Receiver<(Request, Vec<u8>)> {
             let svg = wire::receive_bytes(&mut input, request.svg_bytes)?;
             Ok((request, svg))
         };
-        while let Ok(request) = next() {
-            if sender.send(request).is_err() {
-                return;
+        let error = loop {
+            match next() {
+                Err(error) => break error,
+                Ok(request) => {
+                    if sender.send(request).is_err() {
+                        return;
+                    }
+                }
             }
-        }
-        std::process::exit(0);
+        };
+        std::process::exit(match error.kind() {
+            io::ErrorKind::OutOfMemory => ExitCode::Limit as i32,
+            _ => ExitCode::Ok as i32,
+        });
     });
     receiver
 }
