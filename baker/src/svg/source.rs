@@ -242,7 +242,9 @@ mod tests {
             })
             .collect();
         let masks = svg(&format!("{masks}<path d='M0 0H9V9z' mask='url(#m0)'/>"));
-        let groups = svg(&"<g opacity='.5'>".repeat(60_000));
+        let groups = svg(&["<g opacity='.5'>", "</g>"]
+            .map(|tag| tag.repeat(60_000))
+            .concat());
         let cases = [
             (
                 filter("<feTurbulence baseFrequency='1' numOctaves='100000'/>"),
