@@ -1,5 +1,6 @@
 //! What the user can ask of a bake.
 
+use std::fmt;
 use std::sync::Arc;
 
 use usvg::fontdb;
@@ -141,6 +142,36 @@ impl BakeConfig {
 pub struct Resources {
     /// Fonts for text.
     pub fonts: Arc<fontdb::Database>,
+    /// Reads images that the SVG names instead of embedding them; without it they are left out
+    /// with a warning.
+    pub images: Option<ImageReader>,
+}
+
+/// Reads what an `<image>` or `feImage` names. The baker hands the reference on as it stands in
+/// the SVG, which nobody vouches for: it is the reader who refuses what must not be read. SVG
+/// images that come this way get no files of their own.
+#[derive(Clone)]
+pub struct ImageReader(Arc<ReadImage>);
+
+/// From a reference to an image file's bytes, or to why there are none, in a few words.
+type ReadImage = dyn Fn(&str) -> Result<Vec<u8>, String> + Send + Sync;
+
+impl ImageReader {
+    /// A reader that calls `read`, once for each `<image>`.
+    pub fn new(read: impl Fn(&str) -> Result<Vec<u8>, String> + Send + Sync + 'static) -> Self {
+        Self(Arc::new(read))
+    }
+
+    /// The bytes behind a reference.
+    pub(crate) fn read(&self, reference: &str) -> Result<Vec<u8>, String> {
+        (self.0)(reference)
+    }
+}
+
+impl fmt::Debug for ImageReader {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("ImageReader")
+    }
 }
 
 /// Steps of a bake in order, told to the caller as each begins.

@@ -39,6 +39,7 @@ fn resources() -> Resources {
     }
     Resources {
         fonts: fonts.into(),
+        ..Resources::default()
     }
 }
 

@@ -12,9 +12,13 @@
 //! # Ok::<(), vtex_baker::BakeError>(())
 //! ```
 //!
-//! The baker opens no file and starts no process. A parse of hostile SVG cannot be cancelled from
-//! inside: who bakes input that nobody vouches for runs the bake in a process with limits of time
-//! and memory.
+//! The baker opens no file and starts no process. It refuses what asks for too much before work
+//! starts ([`BakeError::Limit`]): bytes of text, packed, unpacked and with entities expanded; nodes,
+//! segments and nesting; pixels of images; the work of filters. That bounds what is known to grow,
+//! but a call cannot be cancelled, an allocation that the system refuses ends the process, and so
+//! does a stack that is too small: up to 1024 levels nest, for which `vtex bake` gives the threads
+//! of its rayon pool 64 MiB each. Who bakes input that nobody vouches for does that in such a pool
+//! and in a process of its own with limits of time and memory, as `vtex bake` does.
 
 mod cells;
 #[cfg(test)]
@@ -60,7 +64,7 @@ use svg::WalkOptions;
 use vtex_format::{VtexFile, WarningCode};
 use warning::Warnings;
 
-pub use config::{BakeConfig, Mode, Resources, Stage};
+pub use config::{BakeConfig, ImageReader, Mode, Resources, Stage};
 pub use error::BakeError;
 pub use painter::Painter;
 pub use svg::font_selector;

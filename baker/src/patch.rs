@@ -242,10 +242,10 @@ impl PatchSettings {
         (MAX_PATCH_SIDE - 3.0).max(1.0) / side.max(f64::MIN_POSITIVE)
     }
 
-    /// Bounds of one subtree's density: side, layers, patterns.
+    /// Bounds of one subtree's density: side, layers, patterns, filters.
     fn density_limit(self, subtree: &Subtree<'_>) -> f64 {
         let visible = subtree.bounds.intersect(self.canvas());
-        let cost = Cost::of_node(subtree.node, subtree.canvas_from_parent);
+        let cost = Cost::of_node(subtree.node, subtree.canvas_from_parent, self.canvas_size);
         let base = self.base_scale();
         let layer_area = subtree.bounds.width().min(LAYER_OVERHANG * visible.width())
             * subtree
@@ -259,6 +259,7 @@ impl PatchSettings {
         self.density_for_side(visible)
             .min(for_layers)
             .min(for_patterns)
+            .min(cost.filter_density(base))
     }
 
     /// Texels of the whole canvas at a density. The canvas covers them exactly, at the price of

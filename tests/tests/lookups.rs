@@ -253,6 +253,7 @@ fn the_solid_corpus_looks_as_the_painter_paints_it() {
     }
     let resources = Resources {
         fonts: fonts.into(),
+        ..Resources::default()
     };
     let (solid, wrong, report) = compare(&files, &resources, points);
     if let Some(folder) = std::env::var_os("VTEX_REPORT") {

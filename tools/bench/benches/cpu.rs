@@ -2,7 +2,6 @@
 //! Comparisons with other ways to draw are in the binary.
 
 use std::hint::black_box;
-use std::sync::Arc;
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use vtex_baker::{BakeConfig, Resources};
@@ -21,9 +20,7 @@ fn baked() -> VtexFile {
     vtex_baker::bake_observed(
         SAMPLE.as_bytes(),
         &BakeConfig::default(),
-        &Resources {
-            fonts: Arc::default(),
-        },
+        &Resources::default(),
         &|_| (),
     )
     .expect("the sample bakes")

@@ -155,5 +155,6 @@ fn resources() -> Resources {
     fonts.load_system_fonts();
     Resources {
         fonts: Arc::new(fonts),
+        ..Resources::default()
     }
 }

@@ -4,7 +4,6 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, Result, ensure};
@@ -28,9 +27,7 @@ pub(crate) fn rasterise_to_png(svg: &Path, png: &Path) -> Result<()> {
     let resources = if has_text {
         crate::resources()
     } else {
-        Resources {
-            fonts: Arc::default(),
-        }
+        Resources::default()
     };
     let tree = parse(&bytes, &resources)?;
     marks.push(Instant::now());

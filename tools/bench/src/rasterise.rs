@@ -177,8 +177,7 @@ mod tests {
         let svg = br##"<svg xmlns="http://www.w3.org/2000/svg" width="4" height="2">
             <rect width="1" height="2" fill="#fff"/><rect x="1" width="1" height="2"/>
             <rect x="2" width="1" height="2" fill="#fff"/></svg>"##;
-        let fonts = std::sync::Arc::default();
-        let image = rasterise(svg, &Resources { fonts }, 4).unwrap();
+        let image = rasterise(svg, &Resources::default(), 4).unwrap();
         assert_eq!((image.size, image.mips.len()), ([4, 2], 3));
         // Half white, half black is 188, not 128; half white, half nothing the same at half alpha.
         assert_eq!(image.mips[1], [188, 188, 188, 255, 188, 188, 188, 128]);

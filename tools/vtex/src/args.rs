@@ -1,5 +1,6 @@
 //! The command line, as clap sees it.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -49,6 +50,7 @@ pub struct Global {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Bake SVG into .vtex
+    #[command(after_help = PROCESSES)]
     Bake(Box<Bake>),
     /// Say what is in a .vtex file
     Info(Info),
@@ -66,7 +68,14 @@ pub enum Command {
     /// Bake SVG files and write a page that compares SVG, vtex and raster
     #[command(hide = true)]
     Demo(Demo),
+    /// Bake what comes over standard input, for `vtex bake`
+    #[command(hide = true)]
+    Worker(Worker),
 }
+
+const PROCESSES: &str = "Files are baked in processes of their own, --threads of them at a time. A \
+    process that takes longer than --timeout for one file or more than --max-memory is ended: the \
+    file gets exit code 8, the others are baked all the same.";
 
 const METRICS: &str = "The truth is resvg without anti-aliasing at 257 samples a pixel, \
     averaged in linear light. Both pictures are laid over white in linear light and sRGB-encoded; \
@@ -105,6 +114,28 @@ pub struct Bake {
     /// Keep bakes here and take them from here when source, options and version are the same
     #[arg(long, value_name = "DIR")]
     pub cache_dir: Option<PathBuf>,
+    /// What one file may use up.
+    #[command(flatten)]
+    pub budget: Budget,
+}
+
+/// What the bake of one file may use up: it runs in a process of its own.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Budget {
+    /// Longest that one file may take; past it the exit code is 8
+    #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=604_800))]
+    pub timeout: u32,
+    /// Most memory that one file may take; past it the exit code is 8. Not enforced on Windows
+    #[arg(long, value_name = "MIB", default_value_t = 2048, value_parser = clap::value_parser!(u32).range(16..=16_777_216))]
+    pub max_memory: u32,
+}
+
+/// `vtex worker`.
+#[derive(Debug, Args)]
+pub struct Worker {
+    /// The command line of the `vtex` that started this one
+    #[arg(last = true, required = true)]
+    pub command_line: Vec<OsString>,
 }
 
 /// Options that change what a bake makes.
@@ -150,6 +181,10 @@ pub struct BakeOptions {
     /// Texture matrix: u' = a u + c v + e, v' = b u + d v + f
     #[arg(long, value_name = "a,b,c,d,e,f", value_parser = matrix, allow_hyphen_values = true)]
     pub transform: Option<Matrix>,
+    /// Also draw images in files at or below DIR that the SVG names; may be given several times.
+    /// Without it, and from the network in any case, they are left out with a warning
+    #[arg(long, value_name = "DIR")]
+    pub allow_images: Vec<PathBuf>,
     /// Fonts for text.
     #[command(flatten)]
     pub fonts: Fonts,

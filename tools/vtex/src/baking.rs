@@ -49,7 +49,7 @@ pub fn config(options: &BakeOptions) -> Outcome<BakeConfig> {
     })
 }
 
-/// Bakes the SVG read from `path`.
+/// Bakes the SVG read from `path` in this process, without bounds of time and memory.
 ///
 /// # Errors
 /// By whose fault it is: the file's, an option's, a budget's, or ours.
@@ -62,8 +62,23 @@ pub fn bake(
 ) -> Outcome<VtexFile> {
     let resources = Resources {
         fonts: fonts.for_svg(svg),
+        images: None,
     };
-    let bake = || vtex_baker::bake_observed(svg, config, &resources, observer);
+    bake_with(path, svg, config, &resources, observer)
+}
+
+/// As [`bake`], with images besides fonts.
+///
+/// # Errors
+/// As [`bake`].
+pub fn bake_with(
+    path: &Path,
+    svg: &[u8],
+    config: &BakeConfig,
+    resources: &Resources,
+    observer: &(dyn Fn(Stage) + Sync),
+) -> Outcome<VtexFile> {
+    let bake = || vtex_baker::bake_observed(svg, config, resources, observer);
     // One drawing that trips a defect must not take the others of a folder with it.
     match catch_unwind(AssertUnwindSafe(bake)) {
         Ok(baked) => baked.map_err(|error| failure(path, &error)),

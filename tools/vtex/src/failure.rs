@@ -4,8 +4,10 @@ use std::fmt;
 use std::io;
 use std::path::Path;
 
+use serde::{Deserialize, Serialize};
+
 /// Exit codes of the `vtex` command. Scripts depend on the numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum ExitCode {
     /// All went well.
@@ -22,12 +24,12 @@ pub enum ExitCode {
     Unsupported = 5,
     /// `compare`, `bake --check`: there is a difference.
     Difference = 7,
-    /// A budget was exceeded.
+    /// A budget was exceeded, of the drawing, of time or of memory.
     Limit = 8,
 }
 
 /// One failure: one line on stderr and an exit code.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failure {
     /// What the process returns.
     pub code: ExitCode,

@@ -1,13 +1,16 @@
 //! `vtex bake`.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
+use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-use rayon::prelude::*;
 use serde_json::{Value, json};
-use vtex_baker::{BakeConfig, Stage};
-use vtex_format::{VtexFile, Warning};
+use vtex_baker::BakeConfig;
+use vtex_format::Warning;
 
 use crate::args::Bake;
 use crate::baking;
@@ -15,8 +18,11 @@ use crate::cache::Cache;
 use crate::console::{Console, Format, human_bytes};
 use crate::failure::{ExitCode, Failure, Outcome};
 use crate::fonts::FontLibrary;
+use crate::images::ImageFolders;
 use crate::input::{self, Input};
 use crate::output;
+use crate::wire::Summary;
+use crate::workers::Workers;
 
 /// Warnings shown for one file unless `--verbose`.
 const WARNINGS_SHOWN: usize = 3;
@@ -24,20 +30,11 @@ const WARNINGS_SHOWN: usize = 3;
 /// Runs `vtex bake`.
 pub(super) fn run(args: Bake, console: Console) -> Outcome<ExitCode> {
     let job = Job::new(&args, console)?;
-    let progress = console.progress(job.pairs.len() as u64, "baking");
-    let results: Vec<_> = job
-        .pairs
-        .par_iter()
-        .map(|pair| {
-            let result = job.bake_one(pair);
-            progress.step();
-            result
-        })
-        .collect();
-    drop(progress);
+    let results = job.bake_all();
     job.report(&results)?;
     if let Some(depfile) = &args.depfile {
-        output::write(depfile, depfile_text(&job.pairs).as_bytes())?;
+        let text = depfile_text(job.pairs.iter().zip(&results));
+        output::write(depfile, text.as_bytes())?;
     }
     let codes = results
         .iter()
@@ -57,6 +54,8 @@ struct Baked {
     summary: Value,
     line: String,
     warnings: Vec<Warning>,
+    /// Files besides the input that were read.
+    files: Vec<PathBuf>,
 }
 
 struct Job<'a> {
@@ -66,6 +65,9 @@ struct Job<'a> {
     fonts: FontLibrary,
     cache: Option<Cache>,
     pairs: Vec<Pair>,
+    /// How many files are baked at a time.
+    lanes: usize,
+    workers: Workers,
 }
 
 impl<'a> Job<'a> {
@@ -86,6 +88,10 @@ impl<'a> Job<'a> {
             .check()
             .map_err(|error| Failure::usage(error.to_string()))?;
         let pairs = pair_up(input::expand(&args.inputs)?, &args.output)?;
+        // The workers would say the same, but each for itself.
+        ImageFolders::new(&args.options.allow_images)?;
+        let threads = rayon::current_num_threads();
+        let lanes = threads.min(pairs.len()).max(1);
         Ok(Self {
             args,
             console,
@@ -93,45 +99,90 @@ impl<'a> Job<'a> {
             fonts: FontLibrary::new(args.options.fonts.clone())?,
             cache: args.cache_dir.as_deref().map(Cache::open).transpose()?,
             pairs,
+            lanes,
+            workers: Workers::new(args.budget, threads / lanes),
         })
+    }
+
+    /// Bakes every pair; results are in the order of the pairs.
+    fn bake_all(&self) -> Vec<Outcome<Baked>> {
+        let progress = self.console.progress(self.pairs.len() as u64, "baking");
+        let order = self.largest_first();
+        let next = AtomicUsize::new(0);
+        let results: Vec<OnceLock<Outcome<Baked>>> =
+            self.pairs.iter().map(|_| OnceLock::new()).collect();
+        let lane = || {
+            while let Some(&index) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
+                results[index].get_or_init(|| self.bake_one(&self.pairs[index]));
+                progress.step();
+            }
+        };
+        // Each lane waits for its worker: these are threads of their own, not the pool's.
+        std::thread::scope(|scope| {
+            for _ in 0..self.lanes {
+                scope.spawn(lane);
+            }
+        });
+        let missing = || Err(Failure::runtime("internal error: a file was skipped"));
+        results
+            .into_iter()
+            .map(|result| result.into_inner().unwrap_or_else(missing))
+            .collect()
+    }
+
+    /// Indices of the pairs. A large file that comes last would keep one lane busy while the
+    /// others are done.
+    fn largest_first(&self) -> Vec<usize> {
+        let bytes = |pair: &Pair| fs::metadata(&pair.input.path).map_or(0, |file| file.len());
+        let sizes: Vec<u64> = self.pairs.iter().map(bytes).collect();
+        let mut order: Vec<usize> = (0..sizes.len()).collect();
+        order.sort_by_key(|&index| std::cmp::Reverse(sizes[index]));
+        order
     }
 
     fn bake_one(&self, pair: &Pair) -> Outcome<Baked> {
         let begun = Instant::now();
         let svg = pair.input.read()?;
-        let key = self
-            .cache
-            .as_ref()
-            .map(|_| Cache::key(&svg, &self.config, &self.fonts.fingerprint(&svg)));
+        let key = self.cache.as_ref().map(|_| self.cache_key(&svg));
         let kept = self
             .cache
             .as_ref()
             .zip(key.as_ref())
             .and_then(|(cache, key)| cache.get(key));
         let cached = kept.is_some();
-        let (file, bytes) = match kept {
-            Some(kept) => kept,
-            None => self.bake_afresh(pair, &svg)?,
+        let (summary, bytes) = match kept {
+            Some((file, bytes)) => (Summary::of(&file), bytes),
+            None => {
+                let detail = |text: &str| self.console.detail(text);
+                let baked = self.workers.bake(&pair.input.path, &svg, &detail)?;
+                (baked.summary, baked.bytes)
+            }
         };
-        if let (false, Some(cache), Some(key)) = (cached, &self.cache, &key) {
+        if let (false, Some(cache), Some(key)) = (cached, &self.cache, &key)
+            // What hangs on other files is not known by its own bytes.
+            && !summary.names_files
+        {
             cache.put(key, &bytes)?;
         }
         let code = self.deliver(pair, &bytes)?;
         let seconds = begun.elapsed().as_secs_f64();
-        Ok(self.describe(pair, &file, &bytes, Spent { seconds, cached }, code))
+        let spent = Spent {
+            seconds,
+            cached,
+            bytes: bytes.len(),
+        };
+        Ok(self.describe(pair, summary, spent, code))
     }
 
-    fn bake_afresh(&self, pair: &Pair, svg: &[u8]) -> Outcome<(VtexFile, Vec<u8>)> {
-        let path = &pair.input.path;
-        let begun = Instant::now();
-        let observer = |stage: Stage| {
-            let at = begun.elapsed().as_secs_f64();
-            self.console
-                .detail(&format!("{}: {at:7.3} s {stage:?}", path.display()));
+    /// Whether outside images are allowed decides what becomes of drawings that name some; bakes
+    /// that hang on such files are not kept.
+    fn cache_key(&self, svg: &[u8]) -> String {
+        let images = match self.args.options.allow_images.as_slice() {
+            [] => "",
+            _ => "with images ",
         };
-        let file = baking::bake(path, svg, &self.config, &self.fonts, &observer)?;
-        let bytes = baking::to_bytes(path, &file)?;
-        Ok((file, bytes))
+        let besides = format!("{images}{}", self.fonts.fingerprint(svg));
+        Cache::key(svg, &self.config, &besides)
     }
 
     /// Writes the bytes, or with `--check` compares them with what is there.
@@ -157,19 +208,14 @@ impl<'a> Job<'a> {
         Ok(ExitCode::Ok)
     }
 
-    fn describe(
-        &self,
-        pair: &Pair,
-        file: &VtexFile,
-        bytes: &[u8],
-        spent: Spent,
-        code: ExitCode,
-    ) -> Baked {
-        let warnings = file
-            .provenance
-            .as_ref()
-            .map_or_else(Vec::new, |p| p.warnings.clone());
-        let (shapes, layers) = (file.shapes.len(), file.layers.len());
+    fn describe(&self, pair: &Pair, summary: Summary, spent: Spent, code: ExitCode) -> Baked {
+        let Spent {
+            seconds,
+            cached,
+            bytes,
+        } = spent;
+        let (shapes, layers) = (summary.shapes, summary.layers);
+        let files = summary.paths();
         let verdict = match (self.args.check, code) {
             (true, ExitCode::Ok) => "up to date: ",
             (true, _) => "missing or different, bake it again: ",
@@ -177,14 +223,14 @@ impl<'a> Job<'a> {
         };
         let output = pair.output.display();
         let line = format!(
-            "{output}: {verdict}{}, {shapes} shapes in {layers} layers, {:.2} s{}",
-            human_bytes(bytes.len() as u64),
-            spent.seconds,
-            if spent.cached { " (cached)" } else { "" },
+            "{output}: {verdict}{}, {shapes} shapes in {layers} layers, {seconds:.2} s{}",
+            human_bytes(bytes as u64),
+            if cached { " (cached)" } else { "" },
         );
+        let warnings = summary.warnings;
         let summary = json!({
-            "input": pair.input.path, "output": pair.output, "bytes": bytes.len(),
-            "shapes": shapes, "layers": layers, "seconds": spent.seconds, "cached": spent.cached,
+            "input": pair.input.path, "output": pair.output, "bytes": bytes,
+            "shapes": shapes, "layers": layers, "seconds": seconds, "cached": cached,
             "code": code as u8, "warnings": super::info::warnings_json(&warnings),
         });
         Baked {
@@ -192,6 +238,7 @@ impl<'a> Job<'a> {
             summary,
             line,
             warnings,
+            files,
         }
     }
 
@@ -254,6 +301,8 @@ impl<'a> Job<'a> {
 struct Spent {
     seconds: f64,
     cached: bool,
+    /// Bytes of the bake.
+    bytes: usize,
 }
 
 fn is_stdout(path: &Path) -> bool {
@@ -297,12 +346,20 @@ fn ends_with_slash(path: &Path) -> bool {
 
 /// One Makefile rule a file, and one without recipe for each input, so that a removed input does
 /// not stop make.
-fn depfile_text(pairs: &[Pair]) -> String {
+fn depfile_text<'a>(bakes: impl Iterator<Item = (&'a Pair, &'a Outcome<Baked>)>) -> String {
     let mut text = String::new();
-    for pair in pairs.iter().filter(|pair| !pair.input.is_stdin()) {
-        let [output, input] = [&pair.output, &pair.input.path].map(|path| escape(path));
-        // Writing to a String does not fail.
-        let _ = writeln!(text, "{output}: {input}\n{input}:");
+    let mut inputs = BTreeSet::new();
+    for (pair, baked) in bakes {
+        let own = (!pair.input.is_stdin()).then_some(&pair.input.path);
+        let others = baked.as_ref().map_or(&[][..], |baked| &baked.files);
+        for input in own.into_iter().chain(others) {
+            let [output, input] = [&pair.output, input].map(|path| escape(path));
+            // Writing to a String does not fail.
+            let _ = writeln!(text, "{output}: {input}");
+            if inputs.insert(input.clone()) {
+                let _ = writeln!(text, "{input}:");
+            }
+        }
     }
     text
 }

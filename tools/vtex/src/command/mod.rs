@@ -8,13 +8,14 @@ mod info;
 mod preview;
 mod render;
 mod validate;
+mod worker;
 
 use crate::args::{Cli, Command};
 use crate::console::{Console, Verbosity};
 use crate::failure::{ExitCode, Failure, Outcome};
 
-/// Stack of the worker threads: drawings nest groups deeper than two megabytes take.
-const STACK_BYTES: usize = 64 << 20;
+/// Stack of each thread: drawings nest groups deeper than two megabytes take.
+pub(crate) const STACK_BYTES: usize = 64 << 20;
 
 /// Runs the command line and says with what the process is to exit. Failures are told on stderr.
 pub fn run(cli: Cli) -> ExitCode {
@@ -50,5 +51,6 @@ fn dispatch(command: Command, console: Console) -> Outcome<ExitCode> {
         Command::Extract(args) => extract::run(&args, console),
         Command::Render(args) => render::run(args, console),
         Command::Demo(args) => demo::run(args, console),
+        Command::Worker(args) => worker::run(&args),
     }
 }
