@@ -181,8 +181,6 @@ pub enum Stage {
     Parse,
     /// Tree to shapes and patches.
     Draw,
-    /// Raster mips.
-    Mips,
     /// Outlines made simple.
     Prepare,
     /// Shapes into layers.
@@ -193,6 +191,8 @@ pub enum Stage {
     Msdf,
     /// Shader and records.
     Encode,
+    /// Mips of the canvas.
+    Mips,
 }
 
 #[cfg(test)]

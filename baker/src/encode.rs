@@ -1,11 +1,12 @@
 //! From the drawing to the file: runs the stages in order and fills the records.
 
 use rayon::prelude::*;
-use vtex_format::{CurveLattice, CurveSources, Image, LayerRecord, Outline, VtexFile};
+use vtex_format::{CurveLattice, CurveSources, LayerRecord, Outline, VtexFile};
 
 use vtex_shaders::{SpecParts, shader_blob, spec_key_from_parts};
 
 use crate::{
+    canvas,
     cells::{CellInput, CellLists, build_cells},
     config::{BakeConfig, Stage},
     cover::{Cover, cover, curve_lattice, flatness_units, patch_failures},
@@ -28,28 +29,26 @@ use crate::{
 /// the buffer.
 const MAX_TILE_BYTES: usize = 1 << 30;
 
-/// Everything between the drawing and the bytes. Pure; the same at any thread count.
+/// Everything between the drawing and the bytes. Pure; the same at any thread count. `mip0` is the
+/// size of the canvas' mip chain in texels, `None` for a file without.
 pub(crate) fn assemble(
     mut drawing: Drawing,
-    mips: Option<Image>,
+    mip0: Option<[u32; 2]>,
     config: &BakeConfig,
     source_hash: [u8; 32],
     observer: &(dyn Fn(Stage) + Sync),
 ) -> Result<VtexFile, BakeError> {
     observer(Stage::Prepare);
-    let mip0_size = mips
-        .as_ref()
-        .map_or(config.mip0_size, |image| image.size[0].max(image.size[1]));
     let Judgement {
         verdicts,
         msdf_size,
-    } = judge(&drawing, config, mip0_size);
+    } = judge(&drawing, config, config.mip0_size);
     let Laid {
         lattice,
         scales,
         mut placed,
         covers,
-    } = lay(&drawing, &verdicts, config, msdf_size, mip0_size);
+    } = lay(&drawing, &verdicts, config, msdf_size);
     let settings = PatchSettings::new(drawing.canvas_size, config);
     let covers = patch_failures(covers, &mut drawing, &mut placed, &lattice, settings);
 
@@ -58,7 +57,7 @@ pub(crate) fn assemble(
 
     observer(Stage::Cells);
     let mut paints = PaintTable::default();
-    let first_patch = u32::from(mips.is_some());
+    let first_patch = u32::from(mip0.is_some());
     let paint_or_image = number_paints(&placed, first_patch, &mut paints);
     let layers = Layers::new(&placed, &packing);
     let input = CellInput {
@@ -94,10 +93,10 @@ pub(crate) fn assemble(
         paints: &paints,
         cells: &lists.words,
         entries: &lists.entries,
-        canvas_mips: mips.is_some(),
+        canvas_mips: mip0.is_some(),
     });
     let shader = shader_blob(&spec).map_err(|error| BakeError::Shader(error.to_string()))?;
-    Ok(VtexFile {
+    let mut file = VtexFile {
         meta,
         spec,
         shader,
@@ -116,8 +115,13 @@ pub(crate) fn assemble(
             source_hash,
             warnings,
         )),
-        images: records::images(drawing, mips),
-    })
+        images: records::images(drawing, mip0.is_some()),
+    };
+    if let Some(size) = mip0 {
+        observer(Stage::Mips);
+        canvas::add_mips(&mut file, size, config.mode);
+    }
+    Ok(file)
 }
 
 /// The outlines that a reader makes the curve records from, where it can.
@@ -142,13 +146,8 @@ struct Laid {
 }
 
 /// Lays the drawing on the coarsest grid whose cells have room for its outlines.
-fn lay(
-    drawing: &Drawing,
-    verdicts: &[Verdict],
-    config: &BakeConfig,
-    msdf_size: u32,
-    mip0_size: u32,
-) -> Laid {
+fn lay(drawing: &Drawing, verdicts: &[Verdict], config: &BakeConfig, msdf_size: u32) -> Laid {
+    let mip0_size = config.mip0_size;
     let on = |lattice: Lattice| {
         let scales = Scales::new(config, &lattice, mip0_size);
         let placed = place(drawing, &lattice, verdicts);

@@ -20,6 +20,7 @@
 //! of its rayon pool 64 MiB each. Who bakes input that nobody vouches for does that in such a pool
 //! and in a process of its own with limits of time and memory, as `vtex bake` does.
 
+mod canvas;
 mod cells;
 #[cfg(test)]
 mod cells_tests;
@@ -96,10 +97,9 @@ pub fn bake_observed(
 ) -> Result<VtexFile, BakeError> {
     config.check()?;
     let drawing = draw(svg, config, resources, observer)?;
-    observer(Stage::Mips);
-    let mips = raster::canvas_mips(&drawing.items, drawing.canvas_size, config.mip0_size);
+    let mip0 = canvas::canvas_texels(drawing.canvas_size, config.mip0_size);
     let source_hash = *blake3::hash(svg).as_bytes();
-    encode::assemble(drawing, Some(mips), config, source_hash, observer)
+    encode::assemble(drawing, Some(mip0), config, source_hash, observer)
 }
 
 /// The front half: SVG bytes to a drawing.

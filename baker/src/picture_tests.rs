@@ -7,7 +7,7 @@ use crate::drawing::{Drawing, Item};
 use crate::mips::LinearImage;
 use crate::raster::{self, View};
 use crate::warning::Warnings;
-use crate::{BakeConfig, BakeError, Mode, Resources, color, draw, svg};
+use crate::{BakeConfig, BakeError, Mode, Resources, bake, canvas, color, draw, svg};
 
 const SIZE: u32 = 256;
 
@@ -99,7 +99,7 @@ pub(crate) fn compare(
     longer_side: u32,
 ) -> Result<Compared, BakeError> {
     let drawing = draw(svg, &BakeConfig::default(), resources, &|_| {})?;
-    let size = raster::canvas_texels(drawing.canvas_size, longer_side).map(|n| n * SAMPLES);
+    let size = canvas::canvas_texels(drawing.canvas_size, longer_side).map(|n| n * SAMPLES);
     let view = View::canvas(drawing.canvas_size, size);
     let ours = reduced(&raster::picture(&drawing.items, view).unwrap());
     let tree = svg::parse(svg, resources, &Warnings::default())?;
@@ -409,9 +409,10 @@ fn replaced_colours_reach_shapes_and_mips() {
         })
         .collect();
     assert_eq!(colors, [[0.0, 1.0, 0.0, 1.0], [1.0, 1.0, 1.0, 0.5]]);
-    let mips = raster::canvas_mips(&drawing.items, drawing.canvas_size, 512);
+    let file = bake(svg_of(body).as_bytes(), &config, &Resources::default()).unwrap();
     let center = 4 * (256 * 512 + 256);
-    assert_eq!(mips.mips[0][center..center + 4], [0, 255, 0, 255]);
+    let texels = &file.images[0].mips[0];
+    assert_eq!(texels[center..center + 4], [0, 255, 0, 255]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
-//! Pictures of our own items by tiny-skia: for mips, for backdrops and for `Mode::Raster`.
+//! Pictures of our own items by tiny-skia: for backdrops and for `Mode::Raster`.
 //!
-//! Painting the items rather than the SVG makes mips agree with the shapes by construction,
-//! colour replacements included.
+//! Painting the items rather than the SVG makes them agree with the shapes by construction, colour
+//! replacements included.
 
 use kurbo::{Affine, BezPath, PathEl, Point, Rect};
 use rayon::prelude::*;
@@ -9,23 +9,14 @@ use tiny_skia::{
     Color, FillRule as SkiaFillRule, Paint, Path, PathBuilder, Pixmap, PixmapMut, PixmapPaint,
     Transform,
 };
-use vtex_format::Image;
 
 use crate::color;
 use crate::drawing::{FillRule, Item, Patch, Shape};
-use crate::mips::{self, LinearImage};
-use crate::palette;
+use crate::mips::LinearImage;
 use crate::resample;
 
 /// Rows painted by one task. A constant, so that the picture does not depend on thread counts.
 const BAND_ROWS: u32 = 256;
-/// Samples a texel side for mips. tiny-skia blends edges in sRGB-encoded space and lets the ground
-/// through where two shapes abut; both errors shrink with the width of an edge texel.
-/// 4 costs 200 ms for the Tiger at 512 texels on two cores, chain included.
-const SUPERSAMPLING: u32 = 4;
-/// Texels a side of a supersampled picture.
-const MAX_PICTURE_SIDE: u32 = 8192;
-
 /// A window on the canvas, in texels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct View {
@@ -69,81 +60,6 @@ impl View {
             ..self
         }
     }
-}
-
-/// Texels of the canvas when its longer side gets `longer_side`: aspect kept, at least 1.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "between 1 and `longer_side`"
-)]
-pub(crate) fn canvas_texels(canvas_size: [f64; 2], longer_side: u32) -> [u32; 2] {
-    let scale = f64::from(longer_side) / canvas_size[0].max(canvas_size[1]);
-    canvas_size.map(|side| (side * scale).round().clamp(1.0, f64::from(longer_side)) as u32)
-}
-
-/// The mip chain of the whole canvas.
-pub(crate) fn canvas_mips(items: &[Item], canvas_size: [f64; 2], mip0_size: u32) -> Image {
-    let size = canvas_texels(canvas_size, mip0_size);
-    let samples = (MAX_PICTURE_SIDE / mip0_size).clamp(1, SUPERSAMPLING);
-    let picture = supersampled_picture(items, canvas_size, size, samples);
-    let mut image = mips::chain(picture, [0.0, 0.0, 1.0, 1.0]);
-    // A raster may hold gradients, which steps of a few codes would turn into bands.
-    if items.iter().all(|item| matches!(item, Item::Shape(_))) {
-        image
-            .mips
-            .par_iter_mut()
-            .for_each(|level| palette::join_near_colors(level));
-    }
-    image
-}
-
-/// The canvas on `size` texels, each the average of `samples` a side.
-fn supersampled_picture(
-    items: &[Item],
-    canvas_size: [f64; 2],
-    size: [u32; 2],
-    samples: u32,
-) -> LinearImage {
-    let view = View::canvas(canvas_size, size.map(|side| side * samples));
-    let rows = BAND_ROWS / samples * samples;
-    let texels = (0..view.size[1].div_ceil(rows))
-        .into_par_iter()
-        .flat_map_iter(|index| {
-            picture(items, view.band(index, rows))
-                .map(|pixmap| block_averages(&pixmap, size[0], samples))
-                .unwrap_or_default()
-        })
-        .collect();
-    LinearImage { size, texels }
-}
-
-/// Averages of squares of `side` texels, `columns` of them in a row.
-fn block_averages(pixmap: &Pixmap, columns: u32, side: u32) -> Vec<[f32; 4]> {
-    let texels = pixmap.data().as_chunks::<4>().0;
-    let (columns, side) = (columns as usize, side as usize);
-    let weight = 1.0 / (side * side) as f32;
-    let mut averages = Vec::with_capacity(texels.len() / (side * side));
-    for rows in texels.chunks_exact(columns * side * side) {
-        averages.extend((0..columns).map(|column| {
-            let block = rows.chunks_exact(columns * side);
-            let block = block.map(|row| &row[column * side..(column + 1) * side]);
-            let first = rows[column * side];
-            // Most squares have one colour.
-            if block.clone().flatten().all(|texel| *texel == first) {
-                return color::linear_from_skia(first);
-            }
-            let mut sum = [0.0; 4];
-            for &texel in block.flatten() {
-                let linear = color::linear_from_skia(texel);
-                for (sum, linear) in sum.iter_mut().zip(linear) {
-                    *sum += weight * linear;
-                }
-            }
-            sum
-        }));
-    }
-    averages
 }
 
 /// The items in linear light.

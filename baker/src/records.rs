@@ -8,6 +8,7 @@ use vtex_format::{
 };
 
 use crate::{
+    canvas,
     cells::{CellInput, CellLists},
     config::BakeConfig,
     drawing::{Drawing, FillRule, Item, ShapeSource, to_f32},
@@ -128,12 +129,13 @@ pub(crate) fn warnings(
     warnings
 }
 
-/// The canvas' mips, if any, and the patches.
-pub(crate) fn images(drawing: Drawing, mips: Option<Image>) -> Vec<Image> {
+/// A place for the canvas' mips, if there will be any, and the patches.
+pub(crate) fn images(drawing: Drawing, mips: bool) -> Vec<Image> {
     let patches = drawing.items.into_iter().filter_map(|item| match item {
         Item::Patch(patch) => Some(patch.image),
         Item::Shape(_) => None,
     });
+    let mips = mips.then(canvas::no_mips);
     mips.into_iter().chain(patches).collect()
 }
 

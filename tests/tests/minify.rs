@@ -145,7 +145,7 @@ fn zooming_out_shows_no_step() {
                 "{filter:?}: rms error steps by {step:.4} at {pair:?}"
             );
         }
-        // Mips blend edges on encoded values, which darkens them a little.
+        // What few lookups a texel and rounding to codes leave.
         let biased = errors.iter().find(|(_, [bias, _])| *bias > 0.003);
         assert_eq!(biased, None, "{filter:?}");
     }

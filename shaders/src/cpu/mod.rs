@@ -12,6 +12,7 @@ mod cost;
 mod coverage;
 mod edge;
 mod entry;
+mod flat;
 mod footprint;
 mod image;
 mod math;

@@ -77,6 +77,26 @@ pub(super) fn distance_squared(item: [u32; 4], p: Vec2, limit: f32) -> f32 {
     dot(v, v)
 }
 
+/// Whether the winding is the same all over the box from `low` to `high`, as far as this segment
+/// alone tells.
+pub(super) fn is_constant(item: [u32; 4], low: Vec2, high: Vec2) -> bool {
+    let [a, b] = [point(item[0]), point(item[2])];
+    if high[1] < a[1] || low[1] >= b[1] || high[0] < a[0].min(b[0]) {
+        return true;
+    }
+    if low[1] < a[1] || high[1] >= b[1] {
+        return false;
+    }
+    // Monotone: it passes the box where these two corners lie on one side of it.
+    let corners = if a[0] < b[0] {
+        [[low[0], high[1]], [high[0], low[1]]]
+    } else {
+        [low, high]
+    };
+    let [one, other] = corners.map(|corner| winding(item, corner));
+    one == other
+}
+
 fn box_distance_squared(a: Vec2, b: Vec2) -> f32 {
     let axis = |i: usize| a[i].min(b[i]).max(-a[i].max(b[i])).max(0.0);
     dot([axis(0), axis(1)], [axis(0), axis(1)])

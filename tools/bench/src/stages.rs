@@ -15,7 +15,7 @@ use crate::rasterise::rasterise;
 use crate::subject::{name, read};
 use crate::table::{Cell, Table};
 
-/// Columns in the order of [`Stage`]; the baker draws mips before it prepares outlines.
+/// Columns, in the order of [`Stage`].
 const STAGES: [(Stage, &str); 8] = [
     (Stage::Parse, "parse"),
     (Stage::Draw, "draw"),
@@ -23,8 +23,8 @@ const STAGES: [(Stage, &str); 8] = [
     (Stage::Pack, "pack"),
     (Stage::Cells, "cells"),
     (Stage::Msdf, "msdf"),
-    (Stage::Mips, "mips"),
     (Stage::Encode, "encode"),
+    (Stage::Mips, "mips"),
 ];
 
 /// Milliseconds of every stage for each file on `threads` threads, and of rasterising the same

@@ -1,0 +1,77 @@
+//! Whether a part of the canvas has one colour: no twin, for the baker.
+
+use super::cell::{shown, word_at};
+use super::math::{clamp, to_f32, to_u32};
+use super::{Lookup, Sampler, segment};
+use crate::layout::{cell, filter, item};
+
+impl Sampler<'_> {
+    /// The one colour, in linear light, premultiplied, that cells show to point lookups with uv in
+    /// the box from `low` to `high`, inside the canvas before the texture matrix; `None` where they
+    /// may show more.
+    pub fn flat_color(&self, low: [f32; 2], high: [f32; 2]) -> Option<[f32; 4]> {
+        let s = &self.settings;
+        let place = |uv: [f32; 2]| [0, 1].map(|axis| uv[axis] * s.scale[axis] + s.offset[axis]);
+        let span = [place(low), place(high)];
+        let [first, last] = span.map(|p| {
+            let fine = |axis: usize| (p[axis] * s.fine_per_cell).floor();
+            [0, 1].map(|axis| to_u32(clamp(fine(axis), 0.0, s.fine_size[axis] - 1.0)))
+        });
+        let rows = first[1]..=last[1];
+        let fine = rows.flat_map(|y| (first[0]..=last[0]).map(move |x| [x, y]));
+        let mut colors = fine.map(|fine| self.cell_color(fine, span));
+        let color = colors.next()??;
+        colors.all(|other| other == Some(color)).then_some(color)
+    }
+
+    /// The one colour where a fine cell and the box that spans two places, in cells, meet.
+    fn cell_color(&self, fine: [u32; 2], span: [[f32; 2]; 2]) -> Option<[f32; 4]> {
+        let s = &self.settings;
+        let word = word_at(self, fine);
+        let ends = [0.0, 1.0].map(|end| fine.map(|part| (to_f32(part) + end) * s.cell_per_fine));
+        let corner = ends[0].map(f32::floor);
+        let [low, high] = span.map(|p| {
+            [0, 1].map(|axis| clamp(p[axis], ends[0][axis], ends[1][axis]) - corner[axis])
+        });
+        if word >> cell::TAG_SHIFT == cell::LIST
+            && !self.is_flat(word & cell::PAYLOAD_MASK, low, high)
+        {
+            return None;
+        }
+        let lookup = Lookup {
+            uv: [0.0; 2],
+            width_cells: 0.0,
+            q: low,
+        };
+        Some(shown(self, word, &lookup))
+    }
+
+    /// Whether each entry of a list either fills the box or stays out of it.
+    fn is_flat(&self, offset: u32, low: [f32; 2], high: [f32; 2]) -> bool {
+        let s = &self.settings;
+        if s.filter != filter::POINT || s.outline {
+            return false;
+        }
+        let [units, reach] = s.curve_lattice;
+        let [low, high] = [low, high].map(|q| q.map(|q| q * units + reach));
+        let mut at = s.items.wrapping_add(offset.wrapping_mul(item::WORDS));
+        for _ in 0..item::LIMIT {
+            let words: [u32; 4] = self.words(at);
+            let tail = words[3];
+            // Of a curve's segments only the last says what they are.
+            let kind = tail & item::KIND_MASK;
+            let full = tail & item::END_BIT != 0 && kind == item::FULL;
+            if kind == item::MSDF || kind == item::IMAGE {
+                return false;
+            }
+            if !full && !segment::is_constant(words, low, high) {
+                return false;
+            }
+            at = at.wrapping_add(item::WORDS);
+            if tail & item::LAST_BIT != 0 || self.is_past(at) {
+                break;
+            }
+        }
+        true
+    }
+}
