@@ -13,6 +13,9 @@ use crate::{color, palette};
 
 /// The canvas in uv.
 const WHOLE: [f32; 4] = [0.0, 0.0, 1.0, 1.0];
+/// Halvings of the cells: a fine cell is then about a texel, and more cost more to make than they
+/// save in so few lookups. For 2, 3 and 4 the Tiger's bake takes 0.28, 0.26 and 0.29 s of CPU time.
+const HALVINGS: u32 = 3;
 /// Lookups in a texel where colours meet.
 const SAMPLES: u16 = 32;
 /// Puts lookup i at (i, 7 i mod 32) thirty-seconds of the texel and half of one more. No two lie in
@@ -89,6 +92,7 @@ fn picture(file: &VtexFile, size: [u32; 2]) -> LinearImage {
         address: Some([AddressMode::Clamp; 2]),
         texture_matrix: Some([1.0, 0.0, 0.0, 1.0, 0.0, 0.0]),
         smoothing: None,
+        halvings: Some(HALVINGS),
     };
     let words = pack(file, &options);
     let texels = Texels::new(Sampler::new(&words), size);
@@ -159,7 +163,7 @@ mod tests {
         let mut random = Random(7);
         let mut flat = 0;
         for _ in 0..20_000 {
-            let mut at = |low: f64, high: f64| random.within(low, high) as f32;
+            let mut at = |low: f64, high: f64| crate::drawing::to_f32(random.within(low, high));
             let low = [at(0.0, 0.97), at(0.0, 0.97)];
             let high = [low[0] + at(0.0, 0.03), low[1] + at(0.0, 0.03)];
             let Some(color) = sampler.flat_color(low, high) else {

@@ -8,9 +8,8 @@ use zstd::zstd_safe;
 use crate::issue::{self, IssueKind};
 use crate::{Codec, SectionInfo};
 
-/// Levels by the most raw bytes that take them: small sections as tight as zstd packs without its
-/// costly last levels, larger ones where the next level costs more time than it saves bytes. CPU
-/// time on one core:
+/// Levels by the most raw bytes that take them: small sections as tight as zstd packs, larger ones
+/// where the next level costs more time than its bytes are worth. CPU time on one core:
 ///
 /// | the Tiger's | level 12 | 15 | 17 | 19 |
 /// |---|---|---|---|---|
@@ -18,15 +17,7 @@ use crate::{Codec, SectionInfo};
 /// | mip 1, 237 KB | 29.5 KB, 8 ms | 28.3 KB, 19 ms | 28.3 KB, 37 ms | 28.2 KB, 47 ms |
 /// | outlines, 137 KB | 98.3 KB, 6 ms | 93.3 KB, 17 ms | 92.6 KB, 18 ms | 92.6 KB, 27 ms |
 /// | tiles, 1.6 MB | 404 KB, 170 ms | 398 KB, 660 ms | | 364 KB, 2.2 s |
-///
-/// 17 pays for a whole mip 0, of which one of 512 x 512 texels is the largest that takes it, and not
-/// for what is smaller.
-const LEVELS: [(usize, i32); 4] = [
-    (32 << 10, 19),
-    ((256 << 10) - 1, 15),
-    (1 << 20, 17),
-    (usize::MAX, 12),
-];
+const LEVELS: [(usize, i32); 2] = [(32 << 10, 19), (usize::MAX, 12)];
 
 /// Raw bytes as stored: a zstd frame, or themselves when that is no shorter.
 ///

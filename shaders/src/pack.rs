@@ -25,6 +25,9 @@ pub struct PackOptions {
     pub texture_matrix: Option<[f32; 6]>,
     /// Half width S of \[SFG22\] eq. 1 instead of the file's, in (0, 0.5].
     pub smoothing: Option<f32>,
+    /// How often the file's cells are halved, at most 5, instead of what the cost model finds best
+    /// for many lookups (docs/decisions/0007).
+    pub halvings: Option<u32>,
 }
 
 impl PackOptions {
@@ -48,7 +51,7 @@ impl PackOptions {
 pub fn pack(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
     let key = spec_key_with(file, options);
     let distances = key.features & (Features::RAMPS | Features::OUTLINE) != 0;
-    let refined = refine(file, distances);
+    let refined = refine(file, distances, options.halvings);
     let mut words = header_words(file, options, &key);
     let fine = |axis: usize| to_f32(file.meta.grid.size_cells[axis] << refined.depth);
     let per_cell = to_f32(1 << refined.depth);

@@ -28,9 +28,13 @@ pub(crate) struct Refined {
     pub(crate) items: Vec<[u32; 4]>,
 }
 
-/// `distances` says that lookups measure how far edges are, not only on which side.
-pub(crate) fn refine(file: &VtexFile, distances: bool) -> Refined {
-    let depth = depth::choose(file, distances);
+/// `distances` says that lookups measure how far edges are, not only on which side; `halvings` as in
+/// [`crate::PackOptions`].
+pub(crate) fn refine(file: &VtexFile, distances: bool, halvings: Option<u32>) -> Refined {
+    let depth = match halvings {
+        Some(halvings) => halvings.min(depth::MAX_DEPTH),
+        None => depth::choose(file, distances),
+    };
     let [columns, rows] = file.meta.grid.size_cells.map(|count| count as usize);
     let mut build = Build {
         pitch: columns << depth,

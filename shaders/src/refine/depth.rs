@@ -7,7 +7,7 @@ use super::outline::Region;
 use super::{list_of, whole_cell};
 
 /// Deepest subdivision: each step halves the sides of cells.
-const MAX_DEPTH: u32 = 5;
+pub(super) const MAX_DEPTH: u32 = 5;
 /// Lists that stand for all of a file.
 const SAMPLES: usize = 192;
 /// Cost of walking an item. The unit is a lookup in a cell of one colour (about 7.5 ns on two
