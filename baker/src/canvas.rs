@@ -16,14 +16,41 @@ const WHOLE: [f32; 4] = [0.0, 0.0, 1.0, 1.0];
 /// Halvings of the cells: a fine cell is then about a texel, and more cost more to make than they
 /// save in so few lookups. For 2, 3 and 4 the Tiger's bake takes 0.28, 0.26 and 0.29 s of CPU time.
 const HALVINGS: u32 = 3;
-/// Lookups in a texel where colours meet.
-const SAMPLES: u16 = 32;
-/// Puts lookup i at (i, 7 i mod 32) thirty-seconds of the texel and half of one more. No two lie in
-/// a row or a column, and the nearest are 5.7 apart, of 6.1 in the densest of all lattices.
-const GENERATOR: u16 = 7;
-/// Side of a lookup's footprint in texels, by which patches are filtered: as far as lookups lie
-/// apart.
-const FOOTPRINT_TEXELS: f32 = 5.7 / 32.0;
+/// Segments that halved cells may hold together; drawings with more are halved less often.
+const MAX_SEGMENTS: f64 = 1e7;
+/// Segments that all lookups together may walk, a second or two; with more there are fewer lookups.
+const MAX_WALKED: f64 = 3e8;
+/// Lookups in a texel where colours meet, and what puts lookup i at (i, g i mod n) nths of the texel
+/// and half of one more. No two lie in a row or a column. The nearest of 32 are 5.7 apart, of 6.1 in
+/// the densest of all lattices.
+const LOOKUPS: [(u16, u16); 3] = [(32, 7), (16, 7), (8, 3)];
+/// What the mips of one drawing are made with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Effort {
+    halvings: u32,
+    /// One of [`LOOKUPS`].
+    lookups: (u16, u16),
+}
+
+impl Effort {
+    /// A segment takes three words or less, and a halving about doubles the cells that hold it.
+    fn of(file: &VtexFile, size: [u32; 2]) -> Self {
+        let segments = file.curves.len() as f64 / 3.0;
+        let fits = |halvings: &u32| segments * f64::from(1_u32 << halvings) <= MAX_SEGMENTS;
+        let halvings = (0..=HALVINGS).rev().find(fits).unwrap_or(0);
+        let cells = file.cells.len().max(1) as f64 * f64::from(1_u32 << halvings);
+        let walked = segments / cells * f64::from(size[0]) * f64::from(size[1]);
+        let fits = |lookups: &&(u16, u16)| walked * f64::from(lookups.0) <= MAX_WALKED;
+        let lookups = LOOKUPS
+            .iter()
+            .find(fits)
+            .unwrap_or(&LOOKUPS[LOOKUPS.len() - 1]);
+        Self {
+            halvings,
+            lookups: *lookups,
+        }
+    }
+}
 
 /// Texels of the canvas when its longer side gets `longer_side`: aspect kept, at least 1.
 #[expect(
@@ -86,16 +113,17 @@ fn cell_mips(file: &mut VtexFile, size: [u32; 2]) -> Image {
 }
 
 fn picture(file: &VtexFile, size: [u32; 2]) -> LinearImage {
+    let effort = Effort::of(file, size);
     // The canvas as it is drawn, wherever on a surface the file then puts it.
     let options = PackOptions {
         filter: FilterMode::Point,
         address: Some([AddressMode::Clamp; 2]),
         texture_matrix: Some([1.0, 0.0, 0.0, 1.0, 0.0, 0.0]),
         smoothing: None,
-        halvings: Some(HALVINGS),
+        halvings: Some(effort.halvings),
     };
     let words = pack(file, &options);
-    let texels = Texels::new(Sampler::new(&words), size);
+    let texels = Texels::new(Sampler::new(&words), size, effort.lookups);
     LinearImage {
         size,
         texels: (0..size[1])
@@ -109,17 +137,21 @@ fn picture(file: &VtexFile, size: [u32; 2]) -> LinearImage {
 struct Texels<'a> {
     sampler: Sampler<'a>,
     size: [u32; 2],
+    /// Side of a lookup's footprint, by which patches are filtered.
+    footprint_texels: f32,
     /// Where lookups lie in a texel.
     places: Vec<[f32; 2]>,
 }
 
 impl<'a> Texels<'a> {
-    fn new(sampler: Sampler<'a>, size: [u32; 2]) -> Self {
-        let place = |step: u16| (f32::from(step % SAMPLES) + 0.5) / f32::from(SAMPLES);
-        let places = (0..SAMPLES).map(|i| [place(i), place(GENERATOR * i)]);
+    fn new(sampler: Sampler<'a>, size: [u32; 2], (count, generator): (u16, u16)) -> Self {
+        let place = |step: u16| (f32::from(step % count) + 0.5) / f32::from(count);
+        let places = (0..count).map(|i| [place(i), place(generator * i)]);
         Self {
             sampler,
             size,
+            // As far as lookups lie apart.
+            footprint_texels: f32::from(count).sqrt().recip(),
             places: places.collect(),
         }
     }
@@ -134,7 +166,7 @@ impl<'a> Texels<'a> {
         if let Some(color) = self.sampler.flat_color(uv([0.0; 2]), uv([1.0; 2])) {
             return color;
         }
-        let [width, height] = self.size.map(|side| FOOTPRINT_TEXELS / side as f32);
+        let [width, height] = self.size.map(|side| self.footprint_texels / side as f32);
         let mut sum = [0.0; 4];
         for &place in &self.places {
             let color = self.sampler.sample(uv(place), [width, 0.0, 0.0, height]);
@@ -142,7 +174,7 @@ impl<'a> Texels<'a> {
                 *sum += channel;
             }
         }
-        sum.map(|sum| sum / f32::from(SAMPLES))
+        sum.map(|sum| sum / self.places.len() as f32)
     }
 }
 

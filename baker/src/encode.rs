@@ -1,5 +1,6 @@
 //! From the drawing to the file: runs the stages in order and fills the records.
 
+use kurbo::Shape as _;
 use rayon::prelude::*;
 use vtex_format::{CurveLattice, CurveSources, LayerRecord, Outline, VtexFile};
 
@@ -28,6 +29,9 @@ use crate::{
 /// Bytes of MSDF tiles in a file; beyond, a smaller lattice serves better and most GPUs refuse
 /// the buffer.
 const MAX_TILE_BYTES: usize = 1 << 30;
+
+/// Pieces of outlines in cells beyond which no finer grid is tried: 200 MiB of them.
+const MAX_PIECES: f64 = 2e6;
 
 /// Everything between the drawing and the bytes. Pure; the same at any thread count. `mip0` is the
 /// size of the canvas' mip chain in texels, `None` for a file without.
@@ -137,6 +141,19 @@ fn stored_outlines(
         .filter(|sources| sources.is_cuttable(&lattice.grid, curve_lattice))
 }
 
+/// About how many pieces the cells of a lattice cut outlines into, which are placed on another.
+fn pieces(placed: &[Placed], lattice: &Lattice) -> f64 {
+    let shapes = placed.iter().filter(|item| item.is_shape());
+    let segments = shapes.flat_map(|item| item.outline.segments());
+    let reach: f64 = segments
+        .map(|segment| {
+            let bounds = segment.bounding_box();
+            (bounds.width() + bounds.height()) / lattice.longer_steps()
+        })
+        .sum();
+    reach * f64::from(lattice.grid.size_cells[0].max(lattice.grid.size_cells[1]))
+}
+
 /// A drawing on its grid.
 struct Laid {
     lattice: Lattice,
@@ -169,7 +186,9 @@ fn lay(drawing: &Drawing, verdicts: &[Verdict], config: &BakeConfig, msdf_size: 
     ));
     // What is too much for a cell may not be for its parts.
     while laid.covers.iter().any(Result::is_err) {
-        let Some(halved) = laid.lattice.halved(drawing.canvas_size, mip0_size) else {
+        let halved = laid.lattice.halved(drawing.canvas_size, mip0_size);
+        let Some(halved) = halved.filter(|halved| pieces(&laid.placed, halved) <= MAX_PIECES)
+        else {
             break;
         };
         laid = on(halved);
