@@ -1,4 +1,4 @@
-//! The packed words that evaluators read: one `array<u32>` holds a whole texture.
+//! The packed words that evaluators read: one `array<vec4u>` holds a whole texture.
 //!
 //! Several textures can lie in one array; every offset is relative to the texture's first word,
 //! so that a packed texture can be moved. All floats are f32 bits.

@@ -9,9 +9,8 @@ use vtex_format::{
     CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, MAX_CURVE_SEGMENTS, MAX_CURVE_STEPS,
 };
 
+use crate::cpu::plane::{Vec2, cross, dot, point, sub};
 use crate::layout::curve::NEWTON_STEPS;
-
-type Vec2 = [f32; 2];
 
 /// Where the parts of a record lie.
 struct Parts<'a> {
@@ -45,24 +44,6 @@ fn parts(record: &[u32]) -> Parts<'_> {
 
 fn split(words: &[u32], at: usize) -> (&[u32], &[u32]) {
     words.split_at(at.min(words.len()))
-}
-
-fn point(word: u32) -> Vec2 {
-    #[expect(clippy::cast_precision_loss, reason = "16 bits are exact")]
-    let half = |bits: u32| bits as f32;
-    [half(word & 0xffff), half(word >> 16)]
-}
-
-fn sub(a: Vec2, b: Vec2) -> Vec2 {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-fn dot(a: Vec2, b: Vec2) -> f32 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-fn cross(a: Vec2, b: Vec2) -> f32 {
-    a[0] * b[1] - a[1] * b[0]
 }
 
 fn direction(index: usize, down: usize) -> i32 {

@@ -1,5 +1,6 @@
 //! An adapter to run on, and the batch kernel straight through wgpu.
 
+use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
 use vtex_shaders::{BatchQuery, batch_dispatch};
@@ -7,6 +8,27 @@ use wgpu::util::DeviceExt as _;
 
 /// Set to `off`, lets tests that need an adapter pass without one.
 const SWITCH: &str = "VTEX_GPU";
+
+/// The runtime's adapter, which all tests of a suite share, or `None` when they are switched off.
+///
+/// # Panics
+/// When there is no adapter; later, on a validation error: no test is to pass over one.
+#[expect(clippy::print_stdout, reason = "a skipped test has to say so")]
+pub fn shared() -> Option<&'static vtex_runtime::Gpu> {
+    static GPU: OnceLock<Option<vtex_runtime::Gpu>> = OnceLock::new();
+    GPU.get_or_init(|| {
+        if std::env::var(SWITCH).is_ok_and(|value| value == "off") {
+            println!("skipped: {SWITCH}=off");
+            return None;
+        }
+        let gpu = vtex_runtime::Gpu::headless();
+        let gpu = gpu.expect("an adapter; VTEX_GPU=off skips these tests");
+        gpu.device
+            .on_uncaptured_error(Arc::new(|error| panic!("{error}")));
+        Some(gpu)
+    })
+    .as_ref()
+}
 
 /// A device with core WebGPU's limits. Validation errors panic, which is wgpu's default.
 #[derive(Clone, Debug)]

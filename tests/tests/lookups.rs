@@ -11,7 +11,6 @@
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use rayon::prelude::*;
 use vtex_baker::{BakeConfig, Painter, Resources, bake};
@@ -138,18 +137,6 @@ fn places(painter: &Painter, count: usize) -> Vec<[f32; 2]> {
     places
 }
 
-/// The adapter, or `None` when tests on it are switched off.
-fn gpu() -> Option<Gpu> {
-    if std::env::var("VTEX_GPU").is_ok_and(|value| value == "off") {
-        println!("no lookups on the GPU: VTEX_GPU=off");
-        return None;
-    }
-    let gpu = Gpu::headless().expect("an adapter; VTEX_GPU=off skips these tests");
-    gpu.device
-        .on_uncaptured_error(Arc::new(|error| panic!("{error}")));
-    Some(gpu)
-}
-
 fn svg_files(folder: &Path, found: &mut Vec<PathBuf>) {
     let Ok(entries) = std::fs::read_dir(folder) else {
         return;
@@ -169,7 +156,7 @@ fn svg_files(folder: &Path, found: &mut Vec<PathBuf>) {
 
 /// Compares `files`; `(solid ones, lookups further off than rounding explains, report)`.
 fn compare(files: &[PathBuf], resources: &Resources, points: usize) -> (usize, usize, String) {
-    let gpu = gpu();
+    let gpu = vtex_tests::gpu::shared();
     let mut report = String::from(
         "file,points,twin_wrong,twin_near,twin_near_corners,twin_far_units,\
          gpu_wrong,gpu_near,gpu_near_corners,gpu_far_units\n",
@@ -188,7 +175,7 @@ fn compare(files: &[PathBuf], resources: &Resources, points: usize) -> (usize, u
             .to_string()
             .replace(',', "_");
         write!(report, "{name},{points}").unwrap();
-        let gpu = gpu.as_ref().map(|gpu| subject.gpu(gpu));
+        let gpu = gpu.map(|gpu| subject.gpu(gpu));
         for (backend, tally) in [("twin", Some(subject.twin())), ("gpu", gpu)] {
             let Some(tally) = tally else { continue };
             let ([near, corners], far) = (tally.near, tally.far_units);

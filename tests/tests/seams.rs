@@ -7,7 +7,6 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
 use std::fmt::Write as _;
-use std::sync::{Arc, OnceLock};
 
 use kurbo::{CubicBez, ParamCurve as _, Point, Vec2};
 use rayon::prelude::*;
@@ -15,8 +14,9 @@ use vtex::picture::View;
 use vtex::preview::Shot;
 use vtex_baker::{BakeConfig, Resources, bake};
 use vtex_format::VtexFile;
-use vtex_runtime::{BatchQuery, BatchSampler, FilterMode, Gpu, LoadOptions, Trust};
+use vtex_runtime::{BatchQuery, BatchSampler, FilterMode, LoadOptions, Trust};
 use vtex_shaders::{PackOptions, cpu, pack};
+use vtex_tests::gpu::shared as gpu;
 use vtex_tests::random::Random;
 
 /// Units along the canvas' sides.
@@ -117,23 +117,6 @@ fn options() -> LoadOptions {
             ..PackOptions::default()
         },
     }
-}
-
-/// The adapter all tests share, or `None` when they are switched off.
-#[expect(clippy::print_stdout, reason = "a skipped test has to say so")]
-fn gpu() -> Option<&'static Gpu> {
-    static GPU: OnceLock<Option<Gpu>> = OnceLock::new();
-    GPU.get_or_init(|| {
-        if std::env::var("VTEX_GPU").is_ok_and(|value| value == "off") {
-            println!("no lookups on the GPU: VTEX_GPU=off");
-            return None;
-        }
-        let gpu = Gpu::headless().expect("an adapter; VTEX_GPU=off skips these tests");
-        gpu.device
-            .on_uncaptured_error(Arc::new(|error| panic!("{error}")));
-        Some(gpu)
-    })
-    .as_ref()
 }
 
 fn assert_tight(scenes: &[Scene]) {

@@ -20,6 +20,7 @@ mod matrix;
 mod minify;
 mod msdf;
 mod over;
+pub(crate) mod plane;
 mod ramp;
 mod run;
 mod sample;

@@ -1,27 +1,10 @@
 //! Twin of `vtex/segment.wgsl`: a segment of an outline at a lookup. `p` is in units of the cell's
 //! box.
 
-use super::math::{clamp, to_f32};
+use super::math::clamp;
+use super::plane::{Vec2, cross, dot, point, sub};
 use crate::layout::curve::NEWTON_STEPS;
 use crate::layout::item::{DOWN_BIT, LINE_BIT};
-
-type Vec2 = [f32; 2];
-
-fn point(word: u32) -> Vec2 {
-    [to_f32(word & 0xffff), to_f32(word >> 16)]
-}
-
-fn sub(a: Vec2, b: Vec2) -> Vec2 {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-fn dot(a: Vec2, b: Vec2) -> f32 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-fn cross(a: Vec2, b: Vec2) -> f32 {
-    a[0] * b[1] - a[1] * b[0]
-}
 
 /// By how much the winding changes where the ray that runs left from `p` meets the segment.
 pub(super) fn winding(item: [u32; 4], p: Vec2) -> i32 {

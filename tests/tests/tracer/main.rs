@@ -9,35 +9,16 @@
 
 mod batch;
 
-use std::sync::{Arc, OnceLock};
-
 use vtex_format::{
     AddressMode, CellWord, Grid, Meta, PaintRecord, SHADER_ABI, SamplerSettings, ShaderBlob,
     SpecKey, VtexFile,
 };
 use vtex_runtime::glam::{Affine3A, Vec3};
 use vtex_runtime::{
-    Background, Camera, Film, Gpu, Instance, LightSampling, LoadOptions, Material, Mesh, RectLight,
+    Background, Camera, Film, Instance, LightSampling, LoadOptions, Material, Mesh, RectLight,
     RuntimeError, Scene, Sky, Surface, TraceOptions, Tracer, scene,
 };
-
-/// The adapter all tests share, or `None` when they are switched off.
-#[expect(clippy::print_stdout, reason = "a skipped test has to say so")]
-fn gpu() -> Option<&'static Gpu> {
-    static GPU: OnceLock<Option<Gpu>> = OnceLock::new();
-    GPU.get_or_init(|| {
-        if std::env::var("VTEX_GPU").is_ok_and(|value| value == "off") {
-            println!("skipped: VTEX_GPU=off");
-            return None;
-        }
-        let gpu = Gpu::headless().expect("an adapter; VTEX_GPU=off skips these tests");
-        // A test must not pass over a validation error that nobody expected.
-        gpu.device
-            .on_uncaptured_error(Arc::new(|error| panic!("{error}")));
-        Some(gpu)
-    })
-    .as_ref()
-}
+use vtex_tests::gpu::shared as gpu;
 
 /// A file of single-colour cells, `size` columns and rows; `colors` row by row from the top,
 /// straight alpha, sRGB-encoded.
