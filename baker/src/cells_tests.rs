@@ -13,7 +13,9 @@ use crate::{
     grid::Lattice,
     judge::{Coverage, Verdict},
     placed::{Placed, PlacedKind, place},
-    testing::{Evaluator, Random, corpus_file, corpus_root, drawing_of, random_outline, shape},
+    testing::{
+        Evaluator, Random, corpus_file, corpus_root, drawing_of, random_outline, shape, solid,
+    },
 };
 
 fn bake(drawing: Drawing, config: &BakeConfig) -> VtexFile {
@@ -86,10 +88,10 @@ fn compare_lists(drawing: &Drawing, file: &VtexFile, config: &BakeConfig, points
         let (word, entries, _) = evaluator.entries(uv);
         let mut truth = [0.0; 4];
         for item in placed.iter().rev() {
-            if let PlacedKind::Shape { color, .. } = item.kind
+            if let PlacedKind::Shape { paint, .. } = &item.kind
                 && item.region.contains(p)
             {
-                crate::testing::under(&mut truth, color);
+                crate::testing::under(&mut truth, solid(paint));
             }
         }
         let mut listed = [0.0; 4];

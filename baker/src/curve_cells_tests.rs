@@ -14,7 +14,7 @@ use crate::{
     grid::Lattice,
     judge::{Coverage, Verdict},
     placed::{Placed, PlacedKind, place},
-    testing::{Random, corpus_file, drawing_of},
+    testing::{Random, corpus_file, drawing_of, solid},
 };
 
 /// Lookups this near an edge, in steps, may fall on either side: a tenth of a pixel at zoom 64.
@@ -68,8 +68,8 @@ fn compare(drawing: &Drawing, file: &VtexFile, config: &BakeConfig, points: u32)
         if placed.iter().any(|item| near_an_edge(item, p)) {
             continue;
         }
-        let hit = placed.iter().rev().find_map(|item| match item.kind {
-            PlacedKind::Shape { color, .. } if item.region.contains(p) => Some(color),
+        let hit = placed.iter().rev().find_map(|item| match &item.kind {
+            PlacedKind::Shape { paint, .. } if item.region.contains(p) => Some(solid(paint)),
             _ => None,
         });
         let seen = sampler.sample(uv, [0.0; 4]);
@@ -105,7 +105,7 @@ fn curve_cells_show_what_the_painter_paints() {
         let mut drawing = drawing_of(&svg, &config);
         let mut again = drawing_of(&svg, &config);
         for drawing in [&mut drawing, &mut again] {
-            let shapes = |item: &crate::drawing::Item| matches!(item, crate::drawing::Item::Shape(shape) if shape.color[3] >= 1.0);
+            let shapes = |item: &crate::drawing::Item| matches!(item, crate::drawing::Item::Shape(shape) if shape.paint.is_opaque());
             drawing.items.retain(shapes);
         }
         let file = bake(drawing, &config);

@@ -4,6 +4,8 @@
 use kurbo::{BezPath, Rect};
 use vtex_format::{Image, Warning};
 
+pub(crate) use crate::paint::Paint;
+
 /// A whole drawing, back to front.
 #[derive(Debug)]
 pub(crate) struct Drawing {
@@ -18,21 +20,21 @@ pub(crate) struct Drawing {
 /// One thing painted.
 #[derive(Debug)]
 pub(crate) enum Item {
-    /// Geometry with a solid colour.
+    /// Geometry with a paint.
     Shape(Shape),
     /// A subtree that is not yet geometry.
     Patch(Patch),
 }
 
-/// A filled region with one colour. Strokes arrive here already expanded.
+/// A filled region with one paint. Strokes arrive here already expanded.
 #[derive(Debug)]
 pub(crate) struct Shape {
     /// Closed contours.
     pub(crate) outline: BezPath,
     /// Inside test.
     pub(crate) fill_rule: FillRule,
-    /// Straight alpha, sRGB-encoded, every opacity folded in.
-    pub(crate) color: [f32; 4],
+    /// What fills it, every opacity folded in.
+    pub(crate) paint: Paint,
     /// Where it comes from.
     pub(crate) source: ShapeSource,
     /// `id` of the element or its nearest named ancestor, may be empty.

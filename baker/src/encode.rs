@@ -12,7 +12,7 @@ use crate::{
     config::{BakeConfig, Stage},
     cover::{Cover, cover, curve_lattice, flatness_units, patch_failures},
     curves::CurveError,
-    drawing::Drawing,
+    drawing::{Drawing, Paint},
     error::BakeError,
     grid::Lattice,
     judge::{Judgement, Verdict, all_curves, judge},
@@ -79,7 +79,7 @@ pub(crate) fn assemble(
     observer(Stage::Encode);
     let outline = config.outline_texels.map(|width_texels| Outline {
         width_texels,
-        paint: paints.intern(config.stroke_color.unwrap_or([0.0, 0.0, 0.0, 1.0])),
+        paint: paints.intern(&config.stroke_color.map_or(Paint::BLACK, Paint::Solid)),
     });
     let warnings = records::warnings(&mut drawing, &placed, &packing, &lists);
     let curve_lattice = curve_lattice(&placed, &lattice, &scales, config.max_zoom)
@@ -262,8 +262,8 @@ fn number_paints(placed: &[Placed], first_patch: u32, paints: &mut PaintTable) -
     let mut patches = first_patch..;
     placed
         .iter()
-        .map(|item| match item.kind {
-            PlacedKind::Shape { color, .. } => paints.intern(color),
+        .map(|item| match &item.kind {
+            PlacedKind::Shape { paint, .. } => paints.intern(paint),
             PlacedKind::Patch => patches.next().unwrap_or(u32::MAX),
         })
         .collect()

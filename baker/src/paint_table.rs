@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use vtex_format::PaintRecord;
 
+use crate::drawing::Paint;
+
 /// Solid paints by the bits of their colour.
 #[derive(Debug, Default)]
 pub(crate) struct PaintTable {
@@ -12,8 +14,13 @@ pub(crate) struct PaintTable {
 }
 
 impl PaintTable {
-    /// Index of a straight-alpha, sRGB-encoded colour; components are clamped to \[0, 1\].
-    pub(crate) fn intern(&mut self, color: [f32; 4]) -> u32 {
+    /// Index of a paint; components of colours are clamped to \[0, 1\].
+    pub(crate) fn intern(&mut self, paint: &Paint) -> u32 {
+        let Paint::Solid(color) = paint;
+        self.intern_solid(*color)
+    }
+
+    fn intern_solid(&mut self, color: [f32; 4]) -> u32 {
         // Adding zero turns -0 into 0.
         let color = color.map(|v| v.clamp(0.0, 1.0) + 0.0);
         let next = u32::try_from(self.paints.len()).unwrap_or(u32::MAX);
@@ -27,7 +34,7 @@ impl PaintTable {
     /// Index of what paint `front` over paint `back` looks like.
     pub(crate) fn intern_over(&mut self, front: u32, back: u32) -> u32 {
         let [front, back] = [front, back].map(|index| self.color(index));
-        self.intern(over(front, back))
+        self.intern_solid(over(front, back))
     }
 
     /// Whether nothing shows behind.
@@ -63,9 +70,9 @@ mod tests {
     #[test]
     fn equal_colours_share_an_index_and_over_is_source_over() {
         let mut paints = PaintTable::default();
-        let red = paints.intern([1.0, 0.0, 0.0, 0.5]);
-        let green = paints.intern([0.0, 1.0, 0.0, 1.0]);
-        assert_eq!(paints.intern([1.0, -0.0, 0.0, 0.5]), red);
+        let red = paints.intern_solid([1.0, 0.0, 0.0, 0.5]);
+        let green = paints.intern_solid([0.0, 1.0, 0.0, 1.0]);
+        assert_eq!(paints.intern_solid([1.0, -0.0, 0.0, 0.5]), red);
         let both = paints.intern_over(red, green);
         assert!(paints.is_opaque(both) && !paints.is_opaque(red));
         assert_eq!(

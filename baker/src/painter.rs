@@ -13,7 +13,7 @@ use crate::{
     config::{BakeConfig, Resources},
     cover::flatness_units,
     curves::lower::{LoweredOutline, Segment},
-    drawing::{FillRule, Item, Shape},
+    drawing::{FillRule, Item, Paint, Shape},
     geometry::floor_index,
     grid::Lattice,
     prepare::clean,
@@ -40,7 +40,7 @@ pub struct Painter {
 
 #[derive(Debug)]
 struct Painted {
-    color: [f32; 4],
+    paint: Paint,
     rule: FillRule,
     /// One behind its last segment.
     end: u32,
@@ -97,7 +97,7 @@ impl Painter {
     fn push(&mut self, shape: &Shape, lowered: LoweredOutline) {
         self.segments.extend(lowered.segments);
         self.shapes.push(Painted {
-            color: shape.color,
+            paint: shape.paint.clone(),
             rule: shape.fill_rule,
             end: u32::try_from(self.segments.len()).unwrap_or(u32::MAX),
         });
@@ -149,7 +149,8 @@ impl Painter {
                 winding += crossing(&self.segments[index as usize], p);
             }
             if shape_here.rule.fills(winding) {
-                under(&mut out, shape_here.color);
+                let Paint::Solid(color) = shape_here.paint;
+                under(&mut out, color);
             }
             if out[3] >= 1.0 {
                 break;

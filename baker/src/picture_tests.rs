@@ -6,6 +6,7 @@ use vtex_format::WarningCode;
 use crate::drawing::{Drawing, Item};
 use crate::mips::LinearImage;
 use crate::raster::{self, View};
+use crate::testing::solid;
 use crate::warning::Warnings;
 use crate::{BakeConfig, BakeError, Mode, Resources, bake, canvas, color, draw, svg};
 
@@ -271,7 +272,8 @@ fn a_dash_bomb_becomes_a_pale_line() {
     let [Item::Shape(shape)] = drawing.items.as_slice() else {
         panic!("one shape")
     };
-    assert!((shape.color[3] - 0.25).abs() < 1e-3, "{:?}", shape.color);
+    let alpha = solid(&shape.paint)[3];
+    assert!((alpha - 0.25).abs() < 1e-3, "{alpha}");
     assert_eq!(drawing.warnings[0].code, WarningCode::PathFallback);
 }
 
@@ -404,7 +406,7 @@ fn replaced_colours_reach_shapes_and_mips() {
         .items
         .iter()
         .map(|item| match item {
-            Item::Shape(shape) => shape.color,
+            Item::Shape(shape) => solid(&shape.paint),
             Item::Patch(patch) => panic!("{} is a patch", patch.feature),
         })
         .collect();

@@ -4,7 +4,7 @@ use kurbo::{BezPath, Rect, Shape as _};
 use rayon::prelude::*;
 
 use crate::{
-    drawing::{Drawing, FillRule, Item},
+    drawing::{Drawing, FillRule, Item, Paint},
     geometry::Region,
     grid::Lattice,
     judge::{Coverage, Verdict},
@@ -25,12 +25,12 @@ pub(crate) struct Placed {
 }
 
 /// What covers a [`Placed`] outline.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PlacedKind {
-    /// A solid colour: straight alpha, sRGB-encoded.
+    /// A paint.
     Shape {
-        /// The colour.
-        color: [f32; 4],
+        /// The paint, in canvas space.
+        paint: Paint,
         /// What preparation did.
         note: Note,
         /// What it becomes.
@@ -74,7 +74,7 @@ pub(crate) fn place(drawing: &Drawing, lattice: &Lattice, verdicts: &[Verdict]) 
 /// A prepared outline by itself, for judging.
 pub(crate) fn place_prepared(prepared: &Prepared, lattice: &Lattice) -> Placed {
     let kind = PlacedKind::Shape {
-        color: [0.0, 0.0, 0.0, 1.0],
+        paint: Paint::BLACK,
         note: prepared.note,
         verdict: Verdict::forced(Coverage::Msdf),
     };
@@ -102,7 +102,7 @@ pub(crate) fn place_item(
                 },
             };
             let kind = PlacedKind::Shape {
-                color: shape.color,
+                paint: shape.paint.clone(),
                 note: prepared.note,
                 verdict,
             };

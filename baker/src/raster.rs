@@ -11,7 +11,7 @@ use tiny_skia::{
 };
 
 use crate::color;
-use crate::drawing::{FillRule, Item, Patch, Shape};
+use crate::drawing::{self, FillRule, Item, Patch, Shape};
 use crate::mips::LinearImage;
 use crate::resample;
 
@@ -124,7 +124,7 @@ fn paint_shape(shape: &Shape, transform: Affine, window: Rect, pixmap: &mut Pixm
     let Some(path) = skia_path(&shape.outline, transform) else {
         return;
     };
-    let [r, g, b, a] = shape.color;
+    let drawing::Paint::Solid([r, g, b, a]) = shape.paint;
     let Some(color) = Color::from_rgba(r, g, b, a) else {
         return;
     };

@@ -51,7 +51,7 @@ pub(crate) fn shape_records(input: &CellInput<'_>, lattice: &Lattice) -> Vec<Sha
     let record = |((item, &rank), &paint_or_image): ((&Placed, &u32), &u32)| {
         let segments = item.outline.segments().count();
         let layer = input.layer_of_rank[rank as usize];
-        let (coverage, layer_or_image, paint) = match item.kind {
+        let (coverage, layer_or_image, paint) = match &item.kind {
             PlacedKind::Shape { verdict, .. } => match verdict.coverage {
                 Coverage::Msdf => (COVERAGE_MSDF, layer, paint_or_image),
                 Coverage::Curves => (COVERAGE_CURVES, layer, paint_or_image),
@@ -95,8 +95,8 @@ pub(crate) fn warnings(
 ) -> Vec<Warning> {
     let mut warnings = std::mem::take(&mut drawing.warnings);
     for (item, placed) in drawing.items.iter().zip(placed) {
-        if let (Item::Shape(shape), PlacedKind::Shape { note, verdict, .. }) = (item, placed.kind)
-            && note == Note::Failed
+        if let (Item::Shape(shape), PlacedKind::Shape { note, verdict, .. }) = (item, &placed.kind)
+            && *note == Note::Failed
             && verdict.coverage == Coverage::Msdf
         {
             warnings.push(Warning {
@@ -172,9 +172,9 @@ fn report((item, placed): (&Item, &Placed)) -> ShapeReport {
         source: source.to_owned(),
         ..ShapeReport::default()
     };
-    match placed.kind {
+    match &placed.kind {
         PlacedKind::Shape { note, verdict, .. } => ShapeReport {
-            preparation: preparation(note),
+            preparation: preparation(*note),
             finding: verdict.finding,
             size_texels: match verdict.coverage {
                 Coverage::Msdf => size_texels(placed),

@@ -29,7 +29,7 @@ pub(crate) struct Plan<'a> {
 /// One thing to paint.
 #[derive(Debug)]
 pub(crate) enum Step<'a> {
-    /// Geometry with a solid colour.
+    /// Geometry with a paint.
     Shape(Shape),
     /// A subtree for resvg.
     Raster(Subtree<'a>),

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     config::{BakeConfig, Mode},
-    drawing::{Drawing, FillRule, Item, Shape},
+    drawing::{Drawing, FillRule, Item, Paint, Shape},
     encode::assemble,
     geometry::Region,
     placed::place_prepared,
@@ -53,8 +53,9 @@ fn alone(canvas_size: [f64; 2], shape: &Shape) -> Drawing {
         items: vec![Item::Shape(Shape {
             outline: shape.outline.clone(),
             element: shape.element.clone(),
-            color: BLACK,
-            ..*shape
+            paint: Paint::BLACK,
+            fill_rule: shape.fill_rule,
+            source: shape.source,
         })],
         warnings: Vec::new(),
     }

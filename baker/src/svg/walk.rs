@@ -1,11 +1,11 @@
 //! The walk over a usvg tree in painter's order.
 
 use kurbo::{Affine, BezPath, Cap, Join, Rect};
-use usvg::{BlendMode, Group, ImageKind, Node, Paint, PaintOrder};
+use usvg::{BlendMode, Group, ImageKind, Node, PaintOrder};
 use vtex_format::WarningCode;
 
 use crate::BakeError;
-use crate::drawing::{FillRule, Shape, ShapeSource};
+use crate::drawing::{FillRule, Paint, Shape, ShapeSource};
 use crate::stroke::{self, StrokeQuality, StrokeStyle};
 use crate::svg::path::{affine, bez_path, close_subpaths, transformed_bounds};
 use crate::svg::{Plan, Step, Subtree};
@@ -196,8 +196,8 @@ impl<'a> Walker<'a, '_> {
             usvg::FillRule::EvenOdd => FillRule::EvenOdd,
         };
         let opacity = fill.opacity().get() * place.opacity;
-        let color = color(fill.paint(), self.options.fill_color, opacity);
-        self.shape(outline, fill_rule, color, ShapeSource::Fill, place);
+        let paint = paint(fill.paint(), self.options.fill_color, opacity);
+        self.shape(outline, fill_rule, paint, ShapeSource::Fill, place);
     }
 
     fn stroke(&mut self, path: &usvg::Path, place: Place<'a>) {
@@ -221,11 +221,11 @@ impl<'a> Walker<'a, '_> {
                 .push(code, "stroke-linejoin", place.element, message);
         }
         let opacity = stroke.opacity().get() * place.opacity * expanded.opacity;
-        let color = color(stroke.paint(), self.options.stroke_color, opacity);
+        let paint = paint(stroke.paint(), self.options.stroke_color, opacity);
         self.shape(
             expanded.outline,
             FillRule::NonZero,
-            color,
+            paint,
             ShapeSource::Stroke,
             place,
         );
@@ -235,11 +235,11 @@ impl<'a> Walker<'a, '_> {
         &mut self,
         outline: BezPath,
         fill_rule: FillRule,
-        color: Option<[f32; 4]>,
+        paint: Option<Paint>,
         source: ShapeSource,
         place: Place<'a>,
     ) {
-        let Some(color) = color.filter(|c| c[3] > 0.0) else {
+        let Some(paint) = paint.filter(Paint::shows) else {
             return;
         };
         let bounds = outline.control_box();
@@ -259,7 +259,7 @@ impl<'a> Walker<'a, '_> {
         self.steps.push(Step::Shape(Shape {
             outline,
             fill_rule,
-            color,
+            paint,
             source,
             element,
         }));
@@ -378,23 +378,25 @@ fn holds_open_blend(group: &Group) -> bool {
     })
 }
 
-fn foreign(paint: &Paint) -> Option<&'static str> {
+fn foreign(paint: &usvg::Paint) -> Option<&'static str> {
     match paint {
-        Paint::Color(_) => None,
-        Paint::LinearGradient(_) => Some("linearGradient"),
-        Paint::RadialGradient(_) => Some("radialGradient"),
-        Paint::Pattern(_) => Some("pattern"),
+        usvg::Paint::Color(_) => None,
+        usvg::Paint::LinearGradient(_) => Some("linearGradient"),
+        usvg::Paint::RadialGradient(_) => Some("radialGradient"),
+        usvg::Paint::Pattern(_) => Some("pattern"),
     }
 }
 
-/// Straight alpha, sRGB-encoded. A replacement's own alpha multiplies the opacity of the shape.
-fn color(paint: &Paint, replacement: Option<[f32; 4]>, opacity: f32) -> Option<[f32; 4]> {
+/// A replacement's own alpha multiplies the opacity of the shape.
+fn paint(paint: &usvg::Paint, replacement: Option<[f32; 4]>, opacity: f32) -> Option<Paint> {
     if let Some([r, g, b, a]) = replacement {
-        return Some([r, g, b, a * opacity]);
+        return Some(Paint::Solid([r, g, b, a * opacity]));
     }
-    let Paint::Color(c) = paint else { return None };
+    let usvg::Paint::Color(c) = paint else {
+        return None;
+    };
     let [r, g, b] = [c.red, c.green, c.blue].map(|v| f32::from(v) / 255.0);
-    Some([r, g, b, opacity])
+    Some(Paint::Solid([r, g, b, opacity]))
 }
 
 fn stroke_style(stroke: &usvg::Stroke) -> StrokeStyle {

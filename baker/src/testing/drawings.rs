@@ -6,7 +6,7 @@ use kurbo::BezPath;
 
 use crate::{
     config::{BakeConfig, Resources},
-    drawing::{Drawing, FillRule, Item, Shape, ShapeSource},
+    drawing::{Drawing, FillRule, Item, Paint, Shape, ShapeSource},
 };
 
 /// A file of the corpus; `None` when there is no corpus here.
@@ -27,10 +27,16 @@ pub(crate) fn shape(outline: BezPath, fill_rule: FillRule, color: [f32; 4]) -> I
     Item::Shape(Shape {
         outline,
         fill_rule,
-        color,
+        paint: Paint::Solid(color),
         source: ShapeSource::Fill,
         element: String::new(),
     })
+}
+
+/// The colour of a paint that has one.
+pub(crate) fn solid(paint: &Paint) -> [f32; 4] {
+    let Paint::Solid(color) = paint;
+    *color
 }
 
 /// An SVG as the bake sees it, without fonts.

@@ -11,7 +11,11 @@ use std::io::Write as _;
 use kurbo::{Affine, Point};
 use vtex_format::{CellWord, Entry, EntryKind, VtexFile};
 
-use crate::{drawing::Item, geometry::Region, testing::Random};
+use crate::{
+    drawing::Item,
+    geometry::Region,
+    testing::{Random, solid},
+};
 
 /// Point lookups in a file without images, in sRGB-encoded premultiplied colour.
 #[derive(Debug)]
@@ -108,7 +112,7 @@ pub(crate) fn paint_exactly(
         .filter_map(|item| match item {
             Item::Shape(shape) => {
                 let region = Region::new(&closed(&(to_uv * &shape.outline)), shape.fill_rule);
-                Some((region, shape.color))
+                Some((region, solid(&shape.paint)))
             }
             Item::Patch(_) => None,
         })
