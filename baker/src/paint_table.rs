@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use vtex_format::PaintRecord;
+use vtex_format::{PAINT_SOLID, PaintRecord};
 
 use crate::drawing::Paint;
 
@@ -35,6 +35,18 @@ impl PaintTable {
     pub(crate) fn intern_over(&mut self, front: u32, back: u32) -> u32 {
         let [front, back] = [front, back].map(|index| self.color(index));
         self.intern_solid(over(front, back))
+    }
+
+    /// The paint with its alpha multiplied; `None` where it is no single colour.
+    pub(crate) fn intern_faded(&mut self, index: u32, opacity: f32) -> Option<u32> {
+        let [r, g, b, a] = self.solid(index)?;
+        Some(self.intern_solid([r, g, b, a * opacity]))
+    }
+
+    /// The colour of a paint that has one, straight alpha, sRGB-encoded.
+    pub(crate) fn solid(&self, index: u32) -> Option<[f32; 4]> {
+        let paint = self.paints.get(index as usize)?;
+        (paint.kind == PAINT_SOLID).then_some(paint.color)
     }
 
     /// Whether nothing shows behind.

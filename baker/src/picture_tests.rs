@@ -1,14 +1,13 @@
-//! The drawing, painted by tiny-skia, against resvg's own picture of the same SVG.
+//! The drawing's cells, looked up point by point, against resvg's own picture of the same SVG.
 
 use tiny_skia::{Pixmap, Transform};
 use vtex_format::WarningCode;
 
 use crate::drawing::{Drawing, Item};
 use crate::mips::LinearImage;
-use crate::raster::{self, View};
 use crate::testing::solid;
 use crate::warning::Warnings;
-use crate::{BakeConfig, BakeError, Mode, Resources, bake, canvas, color, draw, svg};
+use crate::{BakeConfig, BakeError, Mode, Resources, bake, canvas, color, draw, encode, svg};
 
 const SIZE: u32 = 256;
 
@@ -48,13 +47,16 @@ fn reduced(pixmap: &Pixmap) -> Pixmap {
             .map(|&texel| color::linear_from_skia(texel))
             .collect(),
     };
-    let mut small = Pixmap::new(size[0] / SAMPLES, size[1] / SAMPLES).unwrap();
-    let coarse = fine.reduced([small.width(), small.height()]);
-    let out = small.data_mut().as_chunks_mut::<4>().0;
-    for (out, &texel) in out.iter_mut().zip(&coarse.texels) {
+    pixmap_of(&fine.reduced(size.map(|side| side / SAMPLES)))
+}
+
+fn pixmap_of(image: &LinearImage) -> Pixmap {
+    let mut pixmap = Pixmap::new(image.size[0], image.size[1]).unwrap();
+    let out = pixmap.data_mut().as_chunks_mut::<4>().0;
+    for (out, &texel) in out.iter_mut().zip(&image.texels) {
         *out = color::skia_from_linear(texel);
     }
-    small
+    pixmap
 }
 
 /// PSNR over premultiplied 8-bit channels in dB, at most 99, and the largest difference.
@@ -99,10 +101,13 @@ pub(crate) fn compare(
     resources: &Resources,
     longer_side: u32,
 ) -> Result<Compared, BakeError> {
-    let drawing = draw(svg, &BakeConfig::default(), resources, &|_| {})?;
-    let size = canvas::canvas_texels(drawing.canvas_size, longer_side).map(|n| n * SAMPLES);
-    let view = View::canvas(drawing.canvas_size, size);
-    let ours = reduced(&raster::picture(&drawing.items, view).unwrap());
+    let config = BakeConfig::default();
+    let drawing = draw(svg, &config, resources, &|_| {})?;
+    let same = draw(svg, &config, resources, &|_| {})?;
+    let small = canvas::canvas_texels(drawing.canvas_size, longer_side);
+    let size = small.map(|n| n * SAMPLES);
+    let file = encode::assemble(same, None, &config, [0; 32], &|_| {})?;
+    let ours = pixmap_of(&canvas::picture(&file, small));
     let tree = svg::parse(svg, resources, &Warnings::default())?;
     let theirs = reduced(&resvg_picture(&tree, size));
     let (psnr, max) = difference(&ours, &theirs);

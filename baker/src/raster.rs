@@ -62,32 +62,6 @@ impl View {
     }
 }
 
-/// The items in linear light.
-pub(crate) fn linear_picture(items: &[Item], view: View) -> LinearImage {
-    let bands = view.size[1].div_ceil(BAND_ROWS);
-    let texels = (0..bands)
-        .into_par_iter()
-        .flat_map_iter(|index| {
-            let band = view.band(index, BAND_ROWS);
-            picture(items, band)
-                .map(|pixmap| linear_texels(&pixmap))
-                .unwrap_or_default()
-        })
-        .collect();
-    LinearImage {
-        size: view.size,
-        texels,
-    }
-}
-
-fn linear_texels(pixmap: &Pixmap) -> Vec<[f32; 4]> {
-    let texels = pixmap.data().as_chunks::<4>().0;
-    texels
-        .iter()
-        .map(|&texel| color::linear_from_skia(texel))
-        .collect()
-}
-
 /// The items on a transparent ground; `None` when the window cannot be allocated.
 pub(crate) fn picture(items: &[Item], view: View) -> Option<Pixmap> {
     let mut pixmap = Pixmap::new(view.size[0], view.size[1])?;
@@ -103,6 +77,7 @@ pub(crate) fn paint(items: &[Item], view: View, pixmap: &mut PixmapMut<'_>) {
         match item {
             Item::Shape(shape) => paint_shape(shape, texel_from_canvas, window, pixmap),
             Item::Patch(patch) => paint_patch(patch, texel_from_canvas, window, pixmap),
+            Item::Clip(_) => {}
         }
     }
 }

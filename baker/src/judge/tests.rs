@@ -40,11 +40,7 @@ fn bake(drawing: Drawing, config: &BakeConfig) -> VtexFile {
 }
 
 fn drawing(canvas: f64, items: Vec<Item>) -> Drawing {
-    Drawing {
-        canvas_size: [canvas; 2],
-        items,
-        warnings: Vec::new(),
-    }
+    Drawing::flat([canvas; 2], items)
 }
 
 fn alone(canvas_size: [f64; 2], shape: &Shape) -> Drawing {

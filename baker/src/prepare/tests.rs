@@ -332,11 +332,7 @@ fn what_cannot_be_prepared_is_baked_as_drawn() {
         }
     }
     outline.close_path();
-    let drawing = Drawing {
-        canvas_size: [CANVAS; 2],
-        items: vec![shape(outline, FillRule::NonZero, [0.0, 0.0, 0.0, 1.0])],
-        warnings: Vec::new(),
-    };
+    let drawing = Drawing::flat([CANVAS; 2], vec![shape(outline, FillRule::NonZero, [0.0, 0.0, 0.0, 1.0])]);
     let config = BakeConfig {
         mode: Mode::Msdf,
         msdf_size: 256,

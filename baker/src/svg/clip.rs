@@ -101,7 +101,7 @@ impl Walker<'_, '_> {
     fn clip_part(&mut self, outline: BezPath, rule: FillRule) -> Option<ClipPart> {
         let bounds = outline.control_box();
         let shows = outline.is_finite() && bounds.area() > 0.0 && self.shows(bounds);
-        if !shows || self.is_too_far(&outline, self.element_of_clip()) {
+        if !shows || self.is_too_far(&outline, "") {
             return None;
         }
         self.element_count += outline.elements().len();

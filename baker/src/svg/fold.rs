@@ -29,7 +29,7 @@ impl Walker<'_, '_> {
                 let parts =
                     usize::from(path.fill().is_some()) + usize::from(path.stroke().is_some());
                 shapes.extend(std::iter::repeat_n(bounds, parts));
-                shapes.len() <= MAX_FOLDED_SHAPES && !self.has_pattern(path)
+                shapes.len() <= MAX_FOLDED_SHAPES && self.foreign_paint(path).is_none()
             }
             Node::Path(_) => true,
             Node::Image(image) => !image.is_visible(),

@@ -103,6 +103,10 @@ impl<'a> Walker<'a, '_> {
         let outline = place.canvas_from_user * area;
         effects.clips.extend(self.clip_to(outline, FillRule::NonZero)?);
         let first = self.next_item();
+        let place = Place {
+            opacity: 1.0,
+            ..place
+        };
         let children = self.collected(|walker| walker.children(mask.root(), place));
         if children.is_empty() {
             return None;
