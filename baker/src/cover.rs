@@ -53,13 +53,9 @@ impl Cover {
     /// Of what covers the whole canvas.
     fn everywhere(lattice: &Lattice) -> Self {
         let count = u32::try_from(lattice.cell_count()).unwrap_or(u32::MAX);
-        Self {
-            cells: ShapeCells {
-                full: (0..count).collect(),
-                ..ShapeCells::default()
-            },
-            ..Self::default()
-        }
+        let mut cover = Self::default();
+        cover.cells.full = (0..count).collect();
+        cover
     }
 
     /// Its outline in `cell`: strips that add up to it, most often one. Empty unless it is curves.

@@ -12,7 +12,7 @@ use crate::{
     config::{BakeConfig, Mode, Stage},
     cover::{Cover, cover, curve_lattice, flatness_units, patch_failures},
     curves::CurveError,
-    drawing::{Drawing, Paint},
+    drawing::{Drawing, Item, Paint},
     error::BakeError,
     grid::Lattice,
     judge::{Judgement, Verdict, all_curves, judge},

@@ -59,7 +59,7 @@ mod testing;
 mod tree;
 mod warning;
 
-use drawing::{Drawing, Item};
+use drawing::Drawing;
 use patch::PatchSettings;
 use svg::WalkOptions;
 use vtex_format::{VtexFile, WarningCode};

@@ -1,22 +1,14 @@
-//! Pictures of our own items by tiny-skia: for backdrops and for `Mode::Raster`.
-//!
-//! Painting the items rather than the SVG makes them agree with the shapes by construction, colour
-//! replacements included.
+//! Pictures of single items by tiny-skia: of shapes that are too much for curves.
 
 use kurbo::{Affine, BezPath, PathEl, Point, Rect};
-use rayon::prelude::*;
 use tiny_skia::{
     Color, FillRule as SkiaFillRule, Paint, Path, PathBuilder, Pixmap, PixmapMut, PixmapPaint,
     Transform,
 };
 
-use crate::color;
 use crate::drawing::{self, FillRule, Item, Patch, Shape};
-use crate::mips::LinearImage;
 use crate::resample;
 
-/// Rows painted by one task. A constant, so that the picture does not depend on thread counts.
-const BAND_ROWS: u32 = 256;
 /// A window on the canvas, in texels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct View {
@@ -49,16 +41,6 @@ impl View {
             -self.origin[0],
             -self.origin[1],
         ])
-    }
-
-    /// The band of `rows` rows with an index.
-    fn band(self, index: u32, rows: u32) -> Self {
-        let top = index * rows;
-        Self {
-            size: [self.size[0], rows.min(self.size[1] - top)],
-            origin: [self.origin[0], self.origin[1] + f64::from(top)],
-            ..self
-        }
     }
 }
 

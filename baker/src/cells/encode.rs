@@ -78,14 +78,14 @@ impl<'p> ListEncoder<'p> {
         if let Some(last) = entries.last_mut() {
             last.last = true;
         }
+        if list_frames(&entries).map_or(true, |frames| frames > MAX_FRAMES) {
+            return Err(BakeError::Limit("groups nest too deeply".into()));
+        }
         let mut words = Vec::with_capacity(2 * entries.len());
         for entry in entries {
             words.extend(entry.encode().ok_or_else(|| {
                 BakeError::Limit("more paints or images than an entry can name".into())
             })?);
-        }
-        if list_frames(&words).is_none_or(|frames| frames > MAX_FRAMES) {
-            return Err(BakeError::Limit("groups nest too deeply".into()));
         }
         let next = u32::try_from(self.lists.entries.len())
             .map_err(|_| BakeError::Limit("the cells' lists are too long".into()))?;

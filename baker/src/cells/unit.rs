@@ -8,6 +8,7 @@ use super::{
     draft::{Draft, draft_run},
 };
 use crate::{
+    color,
     paint_table::PaintTable,
     tree::{Mask, Node, Scope},
 };
@@ -208,7 +209,7 @@ impl<'a> Drafting<'a, '_, '_> {
         match units.as_slice() {
             [] => Ok(0.0),
             [Unit::Entry(Draft::Full { paint })] => match self.paints.solid(*paint) {
-                Some(color) => Ok(mask.kind.weight(color)),
+                Some(color) => Ok(color::mask_weight(mask.kind, color)),
                 None => Err(units),
             },
             _ => Err(units),

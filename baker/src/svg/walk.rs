@@ -99,7 +99,7 @@ pub(super) struct Place<'a> {
     /// Of folded groups. Below 1 everything further down is plain, see [`Walker::folds`].
     pub(super) opacity: f32,
     /// Frames that evaluators need for the groups around it.
-    depth: u32,
+    pub(super) depth: u32,
     pub(super) element: &'a str,
 }
 
