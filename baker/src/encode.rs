@@ -108,6 +108,7 @@ pub(crate) fn assemble(
         spec,
         shader,
         paints,
+        gradients: Vec::new(),
         shapes,
         layers,
         cells: lists.words,

@@ -16,6 +16,8 @@ pub struct VtexFile {
     pub shader: ShaderBlob,
     /// Paints, deduplicated.
     pub paints: Vec<PaintRecord>,
+    /// The numbers of gradients, paint by paint: [`crate::Gradient`].
+    pub gradients: Vec<f32>,
     /// Shapes in painter's order.
     pub shapes: Vec<ShapeRecord>,
     /// Layers, back to front.

@@ -167,6 +167,7 @@ issue_table! {
     OUTLINE_PAINT = 3021 Malformed "the outline's paint does not exist";
     CURVE_LATTICE = 3022 Malformed "a box of the curve lattice is empty or exceeds 16 bits";
     CURVE_LATTICE_USE = 3023 Malformed "there is a curve lattice without curve records, or records without a lattice";
+    OUTLINE_SOLID = 3024 Malformed "the outline's paint is not a single colour";
     SPEC_LENGTH = 3030 Malformed "SPEC is not 32 bytes";
     SPEC_ABI = 3031 Unsupported "the shader key is of another ABI";
     SPEC_FEATURES = 3032 Unsupported "the shader key has unknown features";
@@ -186,8 +187,12 @@ issue_table! {
     RECORD_LENGTH = 4001 Malformed "a section is not a whole number of records";
     RECORD_COUNT = 4002 Malformed "more records than an index can name";
     PAINT_KIND = 4003 Unsupported "the kind of a paint is unknown";
-    PAINT_RESERVED = 4004 Malformed "unused words of a paint are not zero";
+    PAINT_RESERVED = 4004 Malformed "unused words or bits of a paint are not zero";
     PAINT_COLOR = 4005 Malformed "a colour is not in [0, 1]";
+    GRADIENT_PART = 4006 Malformed "the numbers of a gradient do not follow those of the one before to the last, or are not as many as one has";
+    GRADIENT_NUMBER = 4007 Malformed "a number of a gradient is not finite or out of its range";
+    GRADIENT_STOPS = 4008 Malformed "the offsets of a gradient's stops are not in [0, 1] or descend";
+    PAINT_OPAQUE = 4009 Malformed "a gradient is called opaque and is not, or the other way round";
     SHAPE_COVERAGE = 4010 Unsupported "the coverage of a shape is unknown";
     SHAPE_FILL_RULE = 4011 Malformed "the fill rule of a shape is unknown";
     SHAPE_TARGET = 4012 Malformed "the layer or image of a shape does not exist";

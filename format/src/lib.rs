@@ -40,6 +40,7 @@
 //!         batch_spirv: Vec::new(),
 //!     },
 //!     paints: vec![PaintRecord::solid([1.0, 0.0, 0.0, 1.0])],
+//!     gradients: Vec::new(),
 //!     shapes: Vec::new(),
 //!     layers: Vec::new(),
 //!     cells: vec![red.encode().expect("0 fits 30 bits")],
@@ -71,6 +72,7 @@ mod directory;
 mod error;
 mod file;
 mod frame;
+mod gradient;
 mod header;
 mod image;
 mod issue;
@@ -104,6 +106,7 @@ pub use curve::{
 pub use directory::{Directory, directory};
 pub use error::{ReadError, WriteError};
 pub use file::VtexFile;
+pub use gradient::{Gradient, GradientShape, GradientStop, MAX_GRADIENT_STOPS, Spread};
 pub use image::{Image, MAX_IMAGE_SIDE, MAX_MIPS};
 pub use issue::{Fault, ISSUES, Issue, IssueKind};
 pub use layer::LayerRecord;
@@ -112,7 +115,7 @@ pub use limits::Limits;
 pub use meta::{
     AddressMode, Grid, MAX_GRID_SIDE, MAX_TEXELS_PER_CELL, Meta, Outline, SamplerSettings,
 };
-pub use paint::{PAINT_SOLID, PaintRecord};
+pub use paint::{PAINT_LINEAR, PAINT_RADIAL, PAINT_SOLID, PaintRecord};
 pub use prov::{FieldError, Finding, Preparation, Provenance, ShapeReport, Warning, WarningCode};
 pub use read::validate;
 pub use scope::{

@@ -44,6 +44,7 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
     let shader = loader.shader();
     let provenance = loader.provenance();
     let paints = loader.records(Tag::PANT);
+    let gradients = loader.records(Tag::GRAD);
     let shapes = loader.records(Tag::SHAP);
     let layers = loader.records(Tag::LAYR);
     let images = loader.records(Tag::IMAG);
@@ -63,6 +64,7 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
         spec: spec?,
         shader: shader?,
         paints: paints?,
+        gradients: gradients?,
         shapes: shapes?,
         layers: layers?,
         cells,

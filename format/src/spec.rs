@@ -60,6 +60,8 @@ impl Features {
     /// Lookups may filter over footprints; without it they are points (a loader's choice, of which
     /// a file says nothing).
     pub const RAMPS: u32 = 1 << 9;
+    /// Some cell or entry names a gradient.
+    pub const GRADIENTS: u32 = 1 << 10;
     /// Some entry is a test: what shows is clipped.
     pub const CLIPS: u32 = 1 << 11;
     /// Some entries are groups.
@@ -67,7 +69,7 @@ impl Features {
     /// Some group blends other than normally.
     pub const BLENDS: u32 = 1 << 13;
     /// All bits this version knows.
-    pub const ALL: u32 = (1 << 10) - 1 | Self::CLIPS | Self::GROUPS | Self::BLENDS;
+    pub const ALL: u32 = (1 << 14) - 1;
 }
 
 /// The parts of a file that decide what its shader contains.
@@ -104,6 +106,22 @@ impl<'a> SpecParts<'a> {
         paint.is_some_and(|paint| !paint.is_opaque())
     }
 
+    fn gradient_feature(&self, paint: u32) -> u32 {
+        let paint = self.paints.get(paint as usize);
+        let gradient = paint.is_some_and(PaintRecord::is_gradient);
+        if gradient { Features::GRADIENTS } else { 0 }
+    }
+
+    /// What cells of a single paint need.
+    fn solid_features(&self) -> u32 {
+        let words = self.cells.iter();
+        let paints = words.filter_map(|&word| match CellWord::decode(word) {
+            Some(CellWord::Solid { paint }) => Some(paint),
+            _ => None,
+        });
+        paints.fold(0, |features, paint| features | self.gradient_feature(paint))
+    }
+
     /// Offsets of the lists that cells name, in words.
     fn lists(&self) -> impl Iterator<Item = u32> {
         let words = self.cells.iter();
@@ -120,7 +138,8 @@ impl<'a> SpecParts<'a> {
         let moved = self.sampler.texture_matrix != identity;
         let features = flag(self.canvas_mips, Features::MIPS)
             | flag(self.sampler.mask, Features::MASK)
-            | flag(moved, Features::TEXTURE_MATRIX);
+            | flag(moved, Features::TEXTURE_MATRIX)
+            | self.solid_features();
         if self.lists().next().is_none() {
             return features;
         }
@@ -147,15 +166,17 @@ impl<'a> SpecParts<'a> {
         let outline = self.sampler.outline.filter(|_| kind != 0);
         let translucent = self.is_translucent(entry.index)
             || outline.is_some_and(|outline| self.is_translucent(outline.paint));
-        kind | if translucent {
-            Features::TRANSLUCENT
-        } else {
-            0
-        } | if outline.is_some() {
-            Features::OUTLINE
-        } else {
-            0
-        }
+        kind | self.gradient_feature(entry.index)
+            | if translucent {
+                Features::TRANSLUCENT
+            } else {
+                0
+            }
+            | if outline.is_some() {
+                Features::OUTLINE
+            } else {
+                0
+            }
     }
 
     /// Length of the longest list that a cell names; lists that do not end are passed over.

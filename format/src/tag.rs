@@ -21,6 +21,8 @@ impl Tag {
     pub const PROV: Self = Self(*b"PROV");
     /// [`crate::PaintRecord`]s.
     pub const PANT: Self = Self(*b"PANT");
+    /// The numbers of [`crate::Gradient`]s.
+    pub const GRAD: Self = Self(*b"GRAD");
     /// [`crate::ShapeRecord`]s.
     pub const SHAP: Self = Self(*b"SHAP");
     /// [`crate::LayerRecord`]s.
@@ -84,12 +86,13 @@ pub(crate) struct SectionKind {
 }
 
 /// All sections of this version in file order: what bounds the others comes first, texels last.
-pub(crate) const SECTIONS: [SectionKind; 14] = [
+pub(crate) const SECTIONS: [SectionKind; 15] = [
     section(Tag::META, true, true, false),
     section(Tag::SPEC, true, true, false),
     section(Tag::SHDR, false, true, false),
     section(Tag::PROV, false, false, false),
     section(Tag::PANT, true, false, false),
+    section(Tag::GRAD, true, false, false),
     section(Tag::SHAP, false, false, false),
     section(Tag::LAYR, true, false, false),
     section(Tag::IMAG, true, false, false),

@@ -111,6 +111,7 @@ impl VtexFile {
             Part::whole(Tag::SHDR, shader),
             Part::whole(Tag::PROV, provenance.unwrap_or_default()),
             Part::whole(Tag::PANT, words_to_little_endian(&self.paints)),
+            Part::whole(Tag::GRAD, words_to_little_endian(&self.gradients)),
             Part::whole(Tag::SHAP, words_to_little_endian(&self.shapes)),
             Part::whole(Tag::LAYR, words_to_little_endian(&self.layers)),
             Part::whole(Tag::IMAG, words_to_little_endian(&records).into_owned()),

@@ -172,7 +172,8 @@ mod curve = "CURVE" {
     NEWTON_STEPS = 4;
 }
 
-/// Words of a paint, by index.
+/// Words of a paint, by index. Both fours of a gradient are the index of its first word, two zeros
+/// and -1 as a float.
 mod paint = "PAINT" {
     /// Words of a paint.
     WORDS = 8;
@@ -180,6 +181,36 @@ mod paint = "PAINT" {
     LINEAR = 0;
     /// Four floats: sRGB-encoded, straight alpha.
     ENCODED = 4;
+}
+
+/// A gradient, in groups of four words: of circles three, else one; then the offsets of its stops,
+/// the last group filled up with [`OFFSET_END`](super::OFFSET_END), then four floats a stop: straight
+/// alpha, sRGB-encoded. Of the first group the floats a, c, e of `x = a u + c v + e`, which is t
+/// of a line, and a word whose parts these are. Of circles then b, d, f of `y = b u + d v + f` and
+/// [`vtex_format::GradientShape::leading`]; distance, focal radius and two zeros.
+mod gradient = "GRADIENT" {
+    /// Words before the stops of a line's gradient.
+    LINEAR_WORDS = 4;
+    /// Words before the stops of a circle's gradient.
+    CIRCLE_WORDS = 12;
+    /// Bits of the number of stops, from 1 to [`vtex_format::MAX_GRADIENT_STOPS`].
+    COUNT_MASK = 0xffff;
+    /// Bits of the [`vtex_format::Spread`].
+    SPREAD_MASK = 3 << 16;
+    /// [`vtex_format::Spread::Reflect`].
+    REFLECT = (vtex_format::Spread::Reflect as u32) << 16;
+    /// [`vtex_format::Spread::Repeat`].
+    REPEAT = (vtex_format::Spread::Repeat as u32) << 16;
+    /// Bits of the kind.
+    KIND_MASK = 3 << 18;
+    /// t is x.
+    LINEAR = 0;
+    /// t is the length of (x, y): circles about one centre, the focal radius 0.
+    ROUND = 1 << 18;
+    /// t is that of the circle through (x, y).
+    CIRCLES = 2 << 18;
+    /// Halvings after which one group of offsets of [`vtex_format::MAX_GRADIENT_STOPS`] is left.
+    SEARCH_STEPS = (vtex_format::MAX_GRADIENT_STOPS / 4).ilog2();
 }
 
 /// Words of an image record, by index, and of its texels: four halves, linear light,
@@ -203,6 +234,9 @@ mod image = "IMAGE" {
     WEIGHT_STEPS = 512;
 }
 }
+
+/// Fills up the last group of a gradient's offsets: no t reaches it.
+pub const OFFSET_END: f32 = f32::MAX;
 
 /// How a lookup turns distances into coverage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

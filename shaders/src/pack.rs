@@ -2,12 +2,12 @@
 
 use half::f16;
 use vtex_format::{
-    AddressMode, Features, Image, MAX_MIPS, PaintRecord, SHADER_ABI, SamplerSettings, SpecKey,
+    AddressMode, Features, Gradient, GradientShape, Image, MAX_MIPS, PaintRecord, SHADER_ABI, SamplerSettings, SpecKey,
     VtexFile,
 };
 
 use crate::cpu::{color, to_f32};
-use crate::layout::{FilterMode, header, image};
+use crate::layout::{FilterMode, OFFSET_END, gradient, header, image, paint};
 use crate::refine::refine;
 use crate::spec::spec_key_with;
 
@@ -60,8 +60,7 @@ pub fn pack(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
     words.reserve(refined.words.len() + 4 * refined.items.len() + file.tiles.len() / 4);
     section(&mut words, header::CELLS, &refined.words);
     section(&mut words, header::ITEMS, refined.items.as_flattened());
-    let paints: Vec<u32> = file.paints.iter().flat_map(paint_words).collect();
-    section(&mut words, header::PAINTS, &paints);
+    paint_section(&mut words, file);
     let texels = file.tiles.chunks_exact(4);
     let tiles: Vec<u32> = texels
         .map(|t| u32::from_le_bytes([t[0], t[1], t[2], t[3]]))
@@ -125,10 +124,61 @@ fn word_index(index: usize) -> u32 {
     u32::try_from(index).unwrap_or(u32::MAX)
 }
 
-fn paint_words(paint: &PaintRecord) -> [u32; 8] {
+/// Paints, then the gradients that they name.
+fn paint_section(words: &mut Vec<u32>, file: &VtexFile) {
+    let first = words.len().next_multiple_of(GROUP_WORDS);
+    let gradients_first = first + file.paints.len() * paint::WORDS as usize;
+    let mut gradients = Vec::new();
+    let mut paints = Vec::with_capacity(gradients_first - first);
+    for record in &file.paints {
+        let stored = Gradient::of(record, &file.gradients);
+        paints.extend(match stored {
+            Some(stored) => {
+                let four = [word_index(gradients_first + gradients.len()), 0, 0, VARIES];
+                gradient_words(&mut gradients, &stored);
+                [four, four].concat()
+            }
+            None => solid_words(record).to_vec(),
+        });
+    }
+    section(words, header::PAINTS, &paints);
+    words.extend(gradients);
+}
+
+/// Alpha of a paint that is no single colour: -1.
+const VARIES: u32 = (-1.0_f32).to_bits();
+
+fn solid_words(paint: &PaintRecord) -> [u32; 8] {
     let [r, g, b, a] = paint.color;
     let rgb = color::decode([r, g, b]).map(|c| c * a);
     [rgb[0], rgb[1], rgb[2], a, r, g, b, a].map(f32::to_bits)
+}
+
+fn gradient_words(words: &mut Vec<u32>, stored: &Gradient) {
+    let spread = (stored.spread as u32) << gradient::SPREAD_MASK.trailing_zeros();
+    let about = word_index(stored.stops.len()) | spread;
+    match stored.shape {
+        GradientShape::Linear { t_from_uv } => {
+            words.extend(t_from_uv.map(f32::to_bits));
+            words.push(about | gradient::LINEAR);
+        }
+        GradientShape::Radial {
+            circle_from_uv: [a, b, c, d, e, f],
+            distance,
+            focal_radius,
+        } => {
+            let round = distance <= 0.0 && focal_radius <= 0.0;
+            let kind = if round { gradient::ROUND } else { gradient::CIRCLES };
+            words.extend([a, c, e].map(f32::to_bits));
+            words.push(about | kind);
+            let leading = stored.shape.leading() as f32;
+            words.extend([b, d, f, leading].map(f32::to_bits));
+            words.extend([distance, focal_radius, 0.0, 0.0].map(f32::to_bits));
+        }
+    }
+    words.extend(stored.stops.iter().map(|stop| stop.offset.to_bits()));
+    words.resize(words.len().next_multiple_of(GROUP_WORDS), OFFSET_END.to_bits());
+    words.extend(stored.stops.iter().flat_map(|stop| stop.color.map(f32::to_bits)));
 }
 
 fn image_words(words: &mut Vec<u32>, images: &[Image]) {

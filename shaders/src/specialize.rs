@@ -147,11 +147,11 @@ fn slots(features: u32) -> LinkContext {
         ),
         (
             "vtex/source",
-            pick(Features::IMAGES, "vtex/source_image", "vtex/source_solid"),
+            pick(Features::IMAGES, "vtex/source_image", "vtex/source_paint"),
         ),
         (
-            "vtex/encoded",
-            pick(Features::IMAGES, "vtex/encoded_image", "vtex/encoded_solid"),
+            "vtex/tint",
+            pick(Features::IMAGES, "vtex/tint_image", "vtex/tint_paint"),
         ),
         (
             "vtex/entry",
@@ -165,13 +165,40 @@ fn slots(features: u32) -> LinkContext {
     fixed
         .into_iter()
         .chain(cell_slots(features))
+        .chain(paint_slots(features))
         .fold(LinkContext::default(), |context, (slot, module)| {
             context.fill(slot, module)
         })
 }
 
+/// The modules that know kinds of paints.
+fn paint_slots(features: u32) -> [(&'static str, &'static str); 3] {
+    let has = |feature: u32| features & feature != 0;
+    let fill = match (has(Features::GRADIENTS), has(Features::MASK)) {
+        (false, _) => "vtex/fill_solid",
+        (true, false) => "vtex/fill_gradient",
+        (true, true) => "vtex/fill_gradient_alpha",
+    };
+    let encoded = match (has(Features::GRADIENTS), has(Features::IMAGES)) {
+        (true, _) => "vtex/encoded_gradient",
+        (false, true) => "vtex/encoded_image",
+        (false, false) => "vtex/encoded_solid",
+    };
+    let hit = match (has(Features::TRANSLUCENT), has(Features::MASK)) {
+        (false, _) => "vtex/hit_first",
+        (true, true) => "vtex/hit_alpha",
+        (true, false) if has(Features::GRADIENTS) => "vtex/hit_over_gradient",
+        (true, false) => "vtex/hit_over",
+    };
+    [
+        ("vtex/fill", fill),
+        ("vtex/encoded", encoded),
+        ("vtex/hit", hit),
+    ]
+}
+
 /// The modules that answer from cells.
-fn cell_slots(features: u32) -> [(&'static str, &'static str); 7] {
+fn cell_slots(features: u32) -> [(&'static str, &'static str); 6] {
     let has = |feature: u32| features & feature != 0;
     // A mask composites alpha alone, which any order of entries gives.
     let composites = has(Features::TRANSLUCENT) && !has(Features::MASK);
@@ -211,16 +238,10 @@ fn cell_slots(features: u32) -> [(&'static str, &'static str); 7] {
         (true, false) => "vtex/inside_msdf",
         (false, false) => "vtex/inside_full",
     };
-    let hit = match (has(Features::TRANSLUCENT), has(Features::MASK)) {
-        (false, _) => "vtex/hit_first",
-        (true, false) => "vtex/hit_over",
-        (true, true) => "vtex/hit_alpha",
-    };
     [
         ("vtex/cells", cells),
         ("vtex/reach", reach),
         ("vtex/inside", inside),
-        ("vtex/hit", hit),
         ("vtex/coverage", coverage),
         ("vtex/edge", edge),
         ("vtex/composite", composite),

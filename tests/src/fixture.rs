@@ -57,6 +57,7 @@ pub fn random_texture(seed: u64, features: u32) -> VtexFile {
         paints: (0..PAINTS)
             .map(|_| random_paint(r, has(Features::TRANSLUCENT)))
             .collect(),
+        gradients: Vec::new(),
         shapes: Vec::new(),
         layers: Vec::new(),
         cells: Vec::new(),

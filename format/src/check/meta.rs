@@ -122,14 +122,18 @@ pub(super) fn curve_lattice(file: &VtexFile, issues: &mut Issues) {
     }
 }
 
-/// The outline's paint exists.
+/// The outline's paint exists and is a single colour.
 pub(super) fn outline_paint(file: &VtexFile, issues: &mut Issues) {
-    if let Some(outline) = file.meta.sampler.outline
-        && outline.paint as usize >= file.paints.len()
-    {
-        let message = format_args!("paint {} of {}", outline.paint, file.paints.len());
-        issues.add(issue::OUTLINE_PAINT, Tag::META, at::OUTLINE_PAINT, message);
-    }
+    let Some(outline) = file.meta.sampler.outline else {
+        return;
+    };
+    let kind = match file.paints.get(outline.paint as usize) {
+        None => issue::OUTLINE_PAINT,
+        Some(paint) if paint.is_gradient() => issue::OUTLINE_SOLID,
+        Some(_) => return,
+    };
+    let message = format_args!("paint {} of {}", outline.paint, file.paints.len());
+    issues.add(kind, Tag::META, at::OUTLINE_PAINT, message);
 }
 
 fn is_positive(value: f32) -> bool {

@@ -4,6 +4,7 @@
 mod cells;
 mod images;
 mod meta;
+mod paints;
 mod prov;
 mod shapes;
 mod spec;
@@ -26,7 +27,7 @@ pub(crate) fn file(file: &VtexFile, issues: &mut Issues) {
 
 /// Checks a value whose settings are known to be sound.
 pub(crate) fn content(file: &VtexFile, issues: &mut Issues) {
-    shapes::paints(&file.paints, issues);
+    paints::paints(file, issues);
     meta::outline_paint(file, issues);
     meta::curve_lattice(file, issues);
     shapes::shapes(file, issues);

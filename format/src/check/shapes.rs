@@ -1,33 +1,10 @@
-//! Paints, shapes and layers.
+//! Shapes and layers.
 
 use crate::issue::{self, Issues};
 use crate::{
-    COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, FILL_EVEN_ODD, FILL_NON_ZERO, PAINT_SOLID,
-    PaintRecord, ShapeRecord, Tag, VtexFile,
+    COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, FILL_EVEN_ODD, FILL_NON_ZERO, ShapeRecord, Tag,
+    VtexFile,
 };
-
-/// Every paint is a solid colour in range.
-pub(super) fn paints(paints: &[PaintRecord], issues: &mut Issues) {
-    for (index, paint) in paints.iter().enumerate() {
-        let offset = offset_of::<PaintRecord>(index);
-        if paint.kind != PAINT_SOLID {
-            let message = format_args!("paint {index} is of kind {}", paint.kind);
-            issues.add(issue::PAINT_KIND, Tag::PANT, offset, message);
-        }
-        if (paint.flags, paint.data_first, paint.data_count) != (0, 0, 0) {
-            let message = format_args!("paint {index}");
-            issues.add(issue::PAINT_RESERVED, Tag::PANT, offset + 4, message);
-        }
-        if !paint
-            .color
-            .iter()
-            .all(|channel| (0.0..=1.0).contains(channel))
-        {
-            let message = format_args!("paint {index} is {:?}", paint.color);
-            issues.add(issue::PAINT_COLOR, Tag::PANT, offset + 16, message);
-        }
-    }
-}
 
 /// Every shape names what exists.
 pub(super) fn shapes(file: &VtexFile, issues: &mut Issues) {

@@ -8,6 +8,7 @@ use vtex_format::{
 };
 
 use crate::forge::{Forged, put_together, seal, take_apart};
+use crate::gradients::GRADIENT_VALUES;
 use crate::outlined::{OUTLINED_CASES, OUTLINED_VALUES};
 use crate::sample;
 
@@ -23,13 +24,14 @@ const SPEC: usize = 1;
 const SHDR: usize = 2;
 const PROV: usize = 3;
 const PANT: usize = 4;
-const SHAP: usize = 5;
-const IMAG: usize = 7;
-const CELL: usize = 8;
-const ENTR: usize = 9;
-const CURV: usize = 10;
-const TILE: usize = 11;
-const MIPS: usize = 12;
+const GRAD: usize = 5;
+const SHAP: usize = 6;
+const IMAG: usize = 8;
+const CELL: usize = 9;
+const ENTR: usize = 10;
+const CURV: usize = 11;
+const TILE: usize = 12;
+const MIPS: usize = 13;
 
 pub(crate) fn patch(section: &mut Forged, offset: usize, bytes: &[u8]) {
     let mut content = section.content();
@@ -117,6 +119,9 @@ const CONTENT_CASES: &[FileCase] = &[
     (3042, |s| patch(&mut s[SHDR], 16 + 19, &[1])),
     (4001, |s| cut(&mut s[PANT], 4)),
     (4001, |s| cut(&mut s[SHAP], 1)),
+    (4001, |s| cut(&mut s[GRAD], 2)),
+    (4006, |s| cut(&mut s[GRAD], 4)),
+    (4006, |s| drop(s.remove(GRAD))),
     (4001, |s| cut(&mut s[CURV], 1)),
     (3023, |s| drop(s.remove(CURV))),
     (5016, |s| cut(&mut s[CURV], 4)),
@@ -159,7 +164,8 @@ const VALUE_CASES: &[ValueCase] = &[
     (3019, |f| f.meta.sampler.smoothing = 0.501),
     (3020, |f| outline(f).width_texels = 2.0),
     (3020, |f| outline(f).width_texels = f32::NAN),
-    (3021, |f| outline(f).paint = 2),
+    (3021, |f| outline(f).paint = 4),
+    (3024, |f| outline(f).paint = 2),
     (3022, |f| lattice(f).units_per_cell = 0),
     (3022, |f| lattice(f).margin_units = 32_768),
     (3022, |f| lattice(f).margin_units = u32::MAX),
@@ -170,6 +176,7 @@ const VALUE_CASES: &[ValueCase] = &[
     (3033, |f| f.spec.features &= !Features::MSDF),
     (3033, |f| f.spec.features &= !Features::TRANSLUCENT),
     (3033, |f| f.spec.features &= !Features::CURVES),
+    (3033, |f| f.spec.features &= !Features::GRADIENTS),
     (3033, |f| f.spec.features = 0),
     (3034, |f| f.spec.features |= Features::MASK),
     (3034, |f| f.meta.sampler.outline = None),
@@ -187,7 +194,7 @@ const VALUE_CASES: &[ValueCase] = &[
     (4002, |f| {
         f.layers = vec![layer(0, u32::MAX), layer(u32::MAX, 1)];
     }),
-    (4003, |f| f.paints[0].kind = 1),
+    (4003, |f| f.paints[0].kind = 3),
     (4004, |f| f.paints[0].data_count = 1),
     (4005, |f| f.paints[1].color[3] = 1.5),
     (4005, |f| f.paints[1].color[0] = f32::NAN),
@@ -196,8 +203,8 @@ const VALUE_CASES: &[ValueCase] = &[
     (4012, |f| f.shapes[2].layer_or_image = 2),
     (4012, |f| f.shapes[3].layer_or_image = 2),
     (4013, |f| f.shapes[2].paint = 1),
-    (4013, |f| f.shapes[3].paint = 2),
-    (4013, |f| f.shapes[0].paint = 2),
+    (4013, |f| f.shapes[3].paint = 4),
+    (4013, |f| f.shapes[0].paint = 4),
     (4014, |f| f.shapes[1].bounds_uv[2] = -1.0),
     (4015, |f| f.shapes[1].reserved = 1),
     (4020, |f| f.layers[1].tile_first = 1),
@@ -206,7 +213,7 @@ const VALUE_CASES: &[ValueCase] = &[
     (5001, |f| f.cells.truncate(3)),
     (5002, |f| f.cells[0] = 3 << 30),
     (5002, |f| f.cells[0] = 1),
-    (5003, |f| f.cells[1] = 1 << 30 | 2),
+    (5003, |f| f.cells[1] = 1 << 30 | 4),
     (5004, |f| f.cells[2] = 2 << 30 | 1),
     (5004, |f| f.cells[2] = 2 << 30 | 10),
     (5005, |f| f.entries[8] &= !(1 << 27)),
@@ -223,7 +230,7 @@ const VALUE_CASES: &[ValueCase] = &[
     (5011, |f| f.entries[0] |= 1 << 19),
     (5011, |f| f.entries[0] = 4 << 28),
     (5011, |f| f.entries[5] = 1),
-    (5012, |f| f.entries[4] += 2),
+    (5012, |f| f.entries[4] += 4),
     (5013, |f| f.entries[1] = 3),
     (5014, |f| f.entries[2] += 1),
     (5015, |f| f.entries[0] |= 1 << 26),
@@ -312,6 +319,7 @@ fn check_files(file: &VtexFile, cases: &[FileCase]) {
 #[test]
 fn broken_values_have_the_issue_and_are_not_written() {
     check_values(&sample::small(), VALUE_CASES);
+    check_values(&sample::small(), GRADIENT_VALUES);
     check_values(&sample::outlined(), OUTLINED_VALUES);
 }
 
@@ -355,7 +363,8 @@ fn broken_headers_have_the_issue() {
 fn every_issue_has_a_case() {
     let files = [TABLE_CASES, CONTENT_CASES, OUTLINED_CASES].concat();
     let files = files.iter().map(|case| case.0);
-    let values = VALUE_CASES.iter().chain(OUTLINED_VALUES).map(|case| case.0);
+    let values = [VALUE_CASES, OUTLINED_VALUES, GRADIENT_VALUES].concat();
+    let values = values.iter().map(|case| case.0);
     let cases: BTreeSet<u16> = files.chain(values).chain(1001..=1007).collect();
     let all: BTreeSet<u16> = ISSUES.iter().map(|kind| kind.code).collect();
     assert_eq!(cases, all);

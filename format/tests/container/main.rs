@@ -7,6 +7,7 @@
 mod cases;
 mod damage;
 mod forge;
+mod gradients;
 mod outlined;
 mod roundtrip;
 mod sample;

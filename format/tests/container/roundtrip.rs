@@ -70,6 +70,7 @@ fn every_tag_is_there_in_file_order() {
         Tag::SHDR,
         Tag::PROV,
         Tag::PANT,
+        Tag::GRAD,
         Tag::SHAP,
         Tag::LAYR,
         Tag::IMAG,

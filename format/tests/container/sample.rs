@@ -1,5 +1,6 @@
 //! Valid files made in code: one by hand that has every section, and arbitrary ones.
 
+use crate::gradients::{any_gradient, small_gradients};
 use arbtest::arbitrary::{Result, Unstructured};
 use bytemuck::Zeroable;
 use vtex_format::{
@@ -32,10 +33,12 @@ pub(crate) fn small() -> VtexFile {
     ];
     let cells = [
         CellWord::Empty,
-        CellWord::Solid { paint: 1 },
+        CellWord::Solid { paint: 3 },
         CellWord::List { offset_words: 0 },
         CellWord::List { offset_words: 6 },
     ];
+    let mut gradients = Vec::new();
+    let [linear, radial] = small_gradients().map(|gradient| gradient.store(&mut gradients));
     let file = VtexFile {
         meta: Meta {
             curve_lattice: CurveLattice::new(0.125),
@@ -53,7 +56,10 @@ pub(crate) fn small() -> VtexFile {
         paints: vec![
             PaintRecord::solid([1.0, 0.5, 0.0, 1.0]),
             PaintRecord::solid([0.0, 0.5, 1.0, 0.25]),
+            linear,
+            radial,
         ],
+        gradients,
         shapes: vec![
             shape(COVERAGE_MSDF, 0, 1),
             shape(COVERAGE_MSDF, 1, 1),
@@ -252,15 +258,16 @@ pub(crate) fn arbitrary(u: &mut Unstructured<'_>) -> Result<VtexFile> {
     let mut meta = meta(size, u.int_in_range(1..=9)?);
     meta.sampler.mask = u.arbitrary()?;
     if u.arbitrary()? {
-        meta.sampler.outline = None;
-    }
-    if u.arbitrary()? {
         meta.sampler.texture_matrix[4] = 0.5;
     }
     let paint_count = u.int_in_range(1..=5)?;
+    let mut gradients = Vec::new();
     let paints = (0..paint_count)
-        .map(|_| paint(u))
+        .map(|_| paint(u, &mut gradients))
         .collect::<Result<Vec<_>>>()?;
+    if paints[0].is_gradient() || u.arbitrary()? {
+        meta.sampler.outline = None;
+    }
     let image_count = u.int_in_range(0..=3)?;
     let images = (0..image_count)
         .map(|_| any_image(u))
@@ -304,6 +311,7 @@ pub(crate) fn arbitrary(u: &mut Unstructured<'_>) -> Result<VtexFile> {
         provenance: None,
         meta,
         paints,
+        gradients,
         cells,
         layers,
         entries,
@@ -311,7 +319,10 @@ pub(crate) fn arbitrary(u: &mut Unstructured<'_>) -> Result<VtexFile> {
     }))
 }
 
-fn paint(u: &mut Unstructured<'_>) -> Result<PaintRecord> {
+fn paint(u: &mut Unstructured<'_>, gradients: &mut Vec<f32>) -> Result<PaintRecord> {
+    if u.ratio(1, 3)? {
+        return Ok(any_gradient(u)?.store(gradients));
+    }
     let channel = |byte: u8| f32::from(byte) / 255.0;
     let [r, g, b] = u.arbitrary::<[u8; 3]>()?.map(channel);
     let alpha = if u.arbitrary()? { 1.0 } else { 0.5 };

@@ -1,5 +1,6 @@
 //! Twin of `vtex/cell.wgsl` and `vtex/cells_list.wgsl`.
 
+use super::fill::fill;
 use super::math::{clamp, to_u32};
 use super::{Lookup, Sampler, Value};
 use crate::layout::{cell, item};
@@ -33,7 +34,7 @@ pub(super) fn cells<V: Value>(sampler: &Sampler<'_>, lookup: &Lookup) -> V {
 pub(super) fn shown<V: Value>(sampler: &Sampler<'_>, word: u32, lookup: &Lookup) -> V {
     let payload = word & cell::PAYLOAD_MASK;
     match word >> cell::TAG_SHIFT {
-        cell::SOLID => V::solid(sampler, payload),
+        cell::SOLID => fill(sampler, payload, lookup),
         cell::LIST => {
             let offset = payload.wrapping_mul(item::WORDS);
             let first = sampler.settings.items.wrapping_add(offset);

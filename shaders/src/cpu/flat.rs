@@ -1,6 +1,7 @@
 //! Whether a part of the canvas has one colour: no twin, for the baker.
 
 use super::cell::{shown, word_at};
+use super::fill::varies;
 use super::math::{clamp, to_f32, to_u32};
 use super::{Lookup, Sampler, segment};
 use crate::layout::{cell, filter, item};
@@ -33,9 +34,13 @@ impl Sampler<'_> {
         let [low, high] = span.map(|p| {
             [0, 1].map(|axis| clamp(p[axis], ends[0][axis], ends[1][axis]) - corner[axis])
         });
-        if word >> cell::TAG_SHIFT == cell::LIST
-            && !self.is_flat(word & cell::PAYLOAD_MASK, low, high)
-        {
+        let payload = word & cell::PAYLOAD_MASK;
+        let flat = match word >> cell::TAG_SHIFT {
+            cell::LIST => self.is_flat(payload, low, high),
+            cell::SOLID => !varies(self, payload),
+            _ => true,
+        };
+        if !flat {
             return None;
         }
         let lookup = Lookup {
@@ -60,8 +65,12 @@ impl Sampler<'_> {
             let tail = words[3];
             // Of a curve's segments only the last says what they are.
             let kind = tail & item::KIND_MASK;
-            let full = tail & item::END_BIT != 0 && kind == item::FULL;
+            let end = tail & item::END_BIT != 0;
+            let full = end && kind == item::FULL;
             if kind == item::MSDF || kind == item::IMAGE {
+                return false;
+            }
+            if end && varies(self, tail & item::INDEX_MASK) {
                 return false;
             }
             if !full && !segment::is_constant(words, low, high) {

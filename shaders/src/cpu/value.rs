@@ -1,7 +1,7 @@
 //! Twin of `vtex/value_*.wgsl`: what a lookup carries, colour or a mask's alpha alone.
 
 use super::math::half_to_f32;
-use super::{Lookup, Sampler, composite};
+use super::{Lookup, Sampler, color, composite};
 use crate::layout::paint;
 use vtex_format::Features;
 
@@ -12,6 +12,8 @@ pub(super) trait Value: Copy {
     fn plus(self, other: Self) -> Self;
     /// Twin of `vtex_paint_solid`.
     fn solid(sampler: &Sampler<'_>, index: u32) -> Self;
+    /// From a straight, sRGB-encoded colour.
+    fn encoded(straight: [f32; 4]) -> Self;
     /// Twin of `vtex_texel`.
     fn texel(sampler: &Sampler<'_>, index: u32) -> Self;
     /// Twin of `vtex_composite`.
@@ -45,6 +47,11 @@ impl Value for [f32; 4] {
 
     fn solid(sampler: &Sampler<'_>, index: u32) -> Self {
         sampler.word_float4(paint_first(sampler, index).wrapping_add(paint::LINEAR))
+    }
+
+    fn encoded([r, g, b, a]: [f32; 4]) -> Self {
+        let [r, g, b] = color::decode([r, g, b]);
+        [r * a, g * a, b * a, a]
     }
 
     fn texel(sampler: &Sampler<'_>, index: u32) -> Self {
@@ -83,6 +90,10 @@ impl Value for f32 {
 
     fn solid(sampler: &Sampler<'_>, index: u32) -> Self {
         sampler.word_float(paint_first(sampler, index).wrapping_add(paint::LINEAR + 3))
+    }
+
+    fn encoded([.., alpha]: [f32; 4]) -> Self {
+        alpha
     }
 
     fn texel(sampler: &Sampler<'_>, index: u32) -> Self {

@@ -47,6 +47,7 @@ pub(crate) fn row_of(columns: u32) -> VtexFile {
             batch_spirv: Vec::new(),
         },
         paints: Vec::new(),
+        gradients: Vec::new(),
         shapes: Vec::new(),
         layers: Vec::new(),
         cells: vec![0; columns as usize],

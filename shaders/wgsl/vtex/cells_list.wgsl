@@ -1,6 +1,6 @@
 //!use core/layout
 //!use vtex/cell
-//!use vtex/paint
+//!use vtex/fill
 //!use vtex/composite
 // The picture from cells where edges are ramps.
 
@@ -9,7 +9,7 @@ fn vtex_cells(vt: VtexTexture, lookup: VtexLookup) -> VtexValue {
     let payload = cell.word & VTEX_CELL_PAYLOAD_MASK;
     switch cell.word >> VTEX_CELL_TAG_SHIFT {
         case VTEX_CELL_SOLID: {
-            return vtex_paint_solid(vt, payload);
+            return vtex_fill(vt, payload, lookup);
         }
         case VTEX_CELL_LIST: {
             let inside = VtexLookup(lookup.uv, lookup.width_squared, cell.q);

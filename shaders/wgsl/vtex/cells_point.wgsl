@@ -14,7 +14,7 @@ fn vtex_cells(vt: VtexTexture, lookup: VtexLookup) -> VtexValue {
     let inside = VtexLookup(lookup.uv, lookup.width_squared, cell.q);
     let p = vtex_inside_point(vt, cell.q);
     let first = vt.items + payload * VTEX_ITEM_WORDS;
-    var hit = vtex_hit_solid(tag == VTEX_CELL_SOLID, payload);
+    var hit = vtex_hit_solid(vt, tag == VTEX_CELL_SOLID, payload, inside);
     var winding = 0;
     var walks = tag == VTEX_CELL_LIST;
     for (var i = 0u; i < VTEX_ITEM_LIMIT; i += 1u) {
@@ -30,5 +30,5 @@ fn vtex_cells(vt: VtexTexture, lookup: VtexLookup) -> VtexValue {
             winding = 0;
         }
     }
-    return vtex_hit_value(vt, hit);
+    return vtex_hit_value(vt, hit, inside);
 }

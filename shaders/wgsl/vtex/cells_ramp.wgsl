@@ -1,7 +1,7 @@
 //!use core/layout
 //!use vtex/words
 //!use vtex/cell
-//!use vtex/paint
+//!use vtex/fill
 //!use vtex/reach
 //!use vtex/ramp
 //!use vtex/source
@@ -17,7 +17,7 @@ fn vtex_cells(vt: VtexTexture, lookup: VtexLookup) -> VtexValue {
     let first = vt.items + payload * VTEX_ITEM_WORDS;
     var value = VtexValue(0.0);
     if tag == VTEX_CELL_SOLID {
-        value = vtex_paint_solid(vt, payload);
+        value = vtex_fill(vt, payload, inside);
     }
     var through = 1.0;
     var winding = 0;

@@ -1,6 +1,6 @@
 //!use core/layout
 //!use vtex/cell
-//!use vtex/paint
+//!use vtex/fill
 // The picture from cells that are empty or of a single colour.
 
 fn vtex_cells(vt: VtexTexture, lookup: VtexLookup) -> VtexValue {
@@ -8,5 +8,5 @@ fn vtex_cells(vt: VtexTexture, lookup: VtexLookup) -> VtexValue {
     if (word >> VTEX_CELL_TAG_SHIFT) == VTEX_CELL_EMPTY {
         return VtexValue(0.0);
     }
-    return vtex_paint_solid(vt, word & VTEX_CELL_PAYLOAD_MASK);
+    return vtex_fill(vt, word & VTEX_CELL_PAYLOAD_MASK, lookup);
 }

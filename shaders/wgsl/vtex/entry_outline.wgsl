@@ -1,5 +1,6 @@
 //!use vtex/footprint
 //!use vtex/coverage
+//!use vtex/paint
 //!use vtex/source
 // One entry of a list and its outline at a lookup.
 

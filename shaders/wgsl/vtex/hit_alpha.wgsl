@@ -1,5 +1,5 @@
 //!use vtex/footprint
-//!use vtex/paint
+//!use vtex/fill
 //!use vtex/source
 // What hits of a walk show of a mask where some are translucent.
 
@@ -11,7 +11,7 @@ struct VtexHit {
     paint: u32,
 }
 
-fn vtex_hit_solid(shows: bool, paint: u32) -> VtexHit {
+fn vtex_hit_solid(vt: VtexTexture, shows: bool, paint: u32, lookup: VtexLookup) -> VtexHit {
     return VtexHit(0.0, 1.0, shows, paint);
 }
 
@@ -31,9 +31,9 @@ fn vtex_hit(
     return (*hit).through > 0.0;
 }
 
-fn vtex_hit_value(vt: VtexTexture, hit: VtexHit) -> VtexValue {
+fn vtex_hit_value(vt: VtexTexture, hit: VtexHit, lookup: VtexLookup) -> VtexValue {
     if hit.solid {
-        return vtex_paint_solid(vt, hit.paint);
+        return vtex_fill(vt, hit.paint, lookup);
     }
     return hit.alpha;
 }

@@ -1,6 +1,6 @@
 //!use core/layout
 //!use vtex/footprint
-//!use vtex/paint
+//!use vtex/fill
 // What hits of a walk show where all paints are opaque: the first one, whose paint is read last.
 
 struct VtexHit {
@@ -8,7 +8,7 @@ struct VtexHit {
     paint: u32,
 }
 
-fn vtex_hit_solid(shows: bool, paint: u32) -> VtexHit {
+fn vtex_hit_solid(vt: VtexTexture, shows: bool, paint: u32, lookup: VtexLookup) -> VtexHit {
     return VtexHit(shows, paint);
 }
 
@@ -25,8 +25,8 @@ fn vtex_hit(
     return !covers;
 }
 
-fn vtex_hit_value(vt: VtexTexture, hit: VtexHit) -> VtexValue {
+fn vtex_hit_value(vt: VtexTexture, hit: VtexHit, lookup: VtexLookup) -> VtexValue {
     // Paint 0 where nothing shows, so that no branch is needed.
-    let value = vtex_paint_solid(vt, select(0u, hit.paint, hit.shows));
+    let value = vtex_fill(vt, select(0u, hit.paint, hit.shows), lookup);
     return select(VtexValue(0.0), value, hit.shows);
 }

@@ -15,7 +15,7 @@ struct VtexHit {
     paint: u32,
 }
 
-fn vtex_hit_solid(shows: bool, paint: u32) -> VtexHit {
+fn vtex_hit_solid(vt: VtexTexture, shows: bool, paint: u32, lookup: VtexLookup) -> VtexHit {
     return VtexHit(vec4f(0.0), 0u, vec4f(0.0), shows, paint);
 }
 
@@ -38,7 +38,7 @@ fn vtex_hit(
     return (*hit).color.a < 1.0;
 }
 
-fn vtex_hit_value(vt: VtexTexture, hit: VtexHit) -> vec4f {
+fn vtex_hit_value(vt: VtexTexture, hit: VtexHit, lookup: VtexLookup) -> vec4f {
     if hit.count > 1u {
         return vtex_color_decode_premultiplied(hit.color);
     }

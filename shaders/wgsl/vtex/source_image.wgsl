@@ -1,13 +1,13 @@
 //!use core/layout
 //!use vtex/footprint
-//!use vtex/paint
+//!use vtex/fill
 //!use vtex/image
-// Colour of an entry: a solid paint or an image's texels.
+// Colour of an entry: a paint or an image's texels.
 
 fn vtex_source(vt: VtexTexture, head: u32, lookup: VtexLookup) -> VtexValue {
     let index = head & VTEX_ITEM_INDEX_MASK;
     if (head & VTEX_ITEM_KIND_MASK) == VTEX_ITEM_IMAGE {
         return vtex_image_entry(vt, index, lookup);
     }
-    return vtex_paint_solid(vt, index);
+    return vtex_fill(vt, index, lookup);
 }

@@ -54,6 +54,7 @@ fn cells_file(size: [u32; 2], colors: &[[f32; 4]]) -> VtexFile {
             batch_spirv: Vec::new(),
         },
         paints: colors.iter().map(|&c| PaintRecord::solid(c)).collect(),
+        gradients: Vec::new(),
         shapes: Vec::new(),
         layers: Vec::new(),
         cells: (0..)

@@ -1,0 +1,16 @@
+//!use core/layout
+//!use vtex/words
+//!use vtex/footprint
+//!use vtex/gradient
+// Colour of an entry at a lookup as compositing wants it: a solid paint's or a gradient's.
+
+// sRGB-encoded, premultiplied.
+fn vtex_tint(vt: VtexTexture, head: u32, lookup: VtexLookup) -> vec4f {
+    let index = head & VTEX_ITEM_INDEX_MASK;
+    let paint = vtex_word4(vt, vt.paints + index * VTEX_PAINT_WORDS + VTEX_PAINT_ENCODED);
+    var straight = bitcast<vec4f>(paint);
+    if straight.a < 0.0 {
+        straight = vtex_gradient(vt, paint.x, lookup.uv);
+    }
+    return vec4f(straight.rgb * straight.a, straight.a);
+}
