@@ -17,6 +17,13 @@ impl Paint {
         *alpha >= 1.0
     }
 
+    /// With every colour changed, straight alpha, sRGB-encoded.
+    pub(crate) fn mapped(self, change: impl Fn([f32; 4]) -> [f32; 4]) -> Self {
+        match self {
+            Self::Solid(color) => Self::Solid(change(color)),
+        }
+    }
+
     /// Whether anything of it can be seen.
     pub(crate) fn shows(&self) -> bool {
         let Self::Solid([.., alpha]) = self;

@@ -9,6 +9,7 @@ mod group;
 mod images;
 mod path;
 mod pattern;
+mod recolor;
 mod source;
 mod style;
 mod walk;

@@ -7,19 +7,40 @@ use vtex_format::{self as format, MaskKind};
 use crate::drawing::FillRule;
 use crate::svg::path::affine;
 use crate::svg::walk::{Place, Walker};
+use crate::svg::recolor::Recolor;
 use crate::tree::{self, Clip, Mask, Scope};
 
-/// What a scope is made with, ahead of its children.
-#[derive(Debug, Default)]
+/// What is done to a group as a whole.
+#[derive(Debug)]
 pub(super) struct Effects {
     pub(super) clips: Vec<Clip>,
     pub(super) masks: Vec<Mask>,
+    pub(super) opacity: f32,
+    pub(super) blend: format::BlendMode,
+    pub(super) isolated: bool,
+}
+
+impl Default for Effects {
+    fn default() -> Self {
+        Self {
+            clips: Vec::new(),
+            masks: Vec::new(),
+            opacity: 1.0,
+            blend: format::BlendMode::Normal,
+            isolated: false,
+        }
+    }
 }
 
 impl<'a> Walker<'a, '_> {
     pub(super) fn group(&mut self, node: &'a Node, group: &'a Group, place: Place<'a>) {
+        let mut place = place;
         if !group.filters().is_empty() {
-            return self.filtered(node, group, place);
+            let recolor = Recolor::of(group).filter(|_| place.recolor.is_none());
+            if recolor.is_none() {
+                return self.filtered(node, group, place);
+            }
+            place.recolor = recolor;
         }
         let folds = place.opacity < 1.0 || group.opacity() == usvg::Opacity::ONE;
         let folds = folds || self.folds(group);
@@ -29,32 +50,22 @@ impl<'a> Walker<'a, '_> {
             opacity: place.opacity * if folds { own } else { 1.0 },
             ..place
         };
-        let opacity = if folds { 1.0 } else { own };
-        let isolated = blends(group) || group.should_isolate() && holds_open_blend(group);
-        let clip_depth = group.clip_path().map_or(0, clip_depth);
-        let mask = group.mask();
-        if clip_depth == 0 && mask.is_none() && opacity >= 1.0 && !isolated {
-            return self.children(group, inner);
-        }
-        let frames = u32::from(mask.is_some() || opacity < 1.0 || isolated);
-        let clip_frames = if mask.is_some() { clip_depth + 1 } else { clip_depth };
-        let Some(inner) = inner.deeper(clip_frames + frames) else {
+        let effects = Effects {
+            opacity: if folds { 1.0 } else { own },
+            blend: blend_mode(group.blend_mode()),
+            isolated: blends(group) || group.should_isolate() && holds_open_blend(group),
+            ..Effects::default()
+        };
+        let grouped = effects.isolated || effects.opacity < 1.0 || group.mask().is_some();
+        let clips = group.clip_path().map_or(0, clip_depth) + u32::from(group.mask().is_some());
+        let Some(inner) = inner.deeper(clips + u32::from(grouped)) else {
             return self.raster(node, place, "nesting");
         };
         let first = self.next_item();
-        let Some(effects) = self.effects(group, inner) else {
-            return;
-        };
-        let children = self.collected(|walker| walker.children(group, inner));
-        self.push_scope(Scope {
-            items: [first, self.next_item()],
-            clips: effects.clips,
-            masks: effects.masks,
-            opacity,
-            blend: blend_mode(group.blend_mode()),
-            isolated,
-            children,
-        });
+        let mut effects = effects;
+        if self.clips_and_masks(group, inner, &mut effects).is_some() {
+            self.scope(first, effects, |walker| walker.children(group, inner));
+        }
     }
 
     /// A group that a filter makes pixels of; blending is not the filter's.
@@ -62,29 +73,49 @@ impl<'a> Walker<'a, '_> {
         if !blends(group) {
             return self.raster(node, place, "filter");
         }
-        let first = self.next_item();
-        let children = self.collected(|walker| walker.raster(node, place, "filter"));
-        self.push_scope(Scope {
-            items: [first, self.next_item()],
-            clips: Vec::new(),
-            masks: Vec::new(),
-            opacity: 1.0,
+        let effects = Effects {
             blend: blend_mode(group.blend_mode()),
             isolated: true,
-            children,
+            ..Effects::default()
+        };
+        self.scope(self.next_item(), effects, |walker| {
+            walker.raster(node, place, "filter");
         });
     }
 
+    /// A node of what `walk` adds; its items begin with `first`, those of the effects among them.
+    pub(super) fn scope(&mut self, first: u32, effects: Effects, walk: impl FnOnce(&mut Self)) {
+        let children = self.collected(walk);
+        let scope = Scope {
+            items: [first, self.next_item()],
+            clips: effects.clips,
+            masks: effects.masks,
+            opacity: effects.opacity,
+            blend: effects.blend,
+            isolated: effects.isolated,
+            children,
+        };
+        if scope.clips.is_empty() && !scope.is_group() {
+            self.nodes.extend(scope.children);
+        } else if !scope.children.is_empty() {
+            self.nodes.push(tree::Node::Scope(Box::new(scope)));
+        }
+    }
+
     /// Clips and masks of a group; `None` where they let nothing show.
-    fn effects(&mut self, group: &'a Group, place: Place<'a>) -> Option<Effects> {
-        let mut effects = Effects::default();
+    fn clips_and_masks(
+        &mut self,
+        group: &'a Group,
+        place: Place<'a>,
+        effects: &mut Effects,
+    ) -> Option<()> {
         if let Some(clip) = group.clip_path() {
             effects.clips = self.clips(clip, place.canvas_from_user)?;
         }
         if let Some(mask) = group.mask() {
-            self.mask(mask, place, &mut effects)?;
+            self.mask(mask, place, effects)?;
         }
-        Some(effects)
+        Some(())
     }
 
     /// A mask and the masks on it, of which each fades the group by itself.
@@ -105,6 +136,7 @@ impl<'a> Walker<'a, '_> {
         let first = self.next_item();
         let place = Place {
             opacity: 1.0,
+            recolor: None,
             ..place
         };
         let children = self.collected(|walker| walker.children(mask.root(), place));
@@ -127,18 +159,6 @@ impl<'a> Walker<'a, '_> {
         let outer = std::mem::take(&mut self.nodes);
         walk(self);
         std::mem::replace(&mut self.nodes, outer)
-    }
-
-    pub(super) fn push_scope(&mut self, scope: Scope) {
-        if scope.children.is_empty() {
-            return;
-        }
-        let plain = scope.clips.is_empty() && !scope.is_group();
-        if plain {
-            self.nodes.extend(scope.children);
-        } else {
-            self.nodes.push(tree::Node::Scope(Box::new(scope)));
-        }
     }
 }
 

@@ -5,11 +5,10 @@ use usvg::{Group, Node, Pattern};
 
 use crate::drawing::{FillRule, Paint, Shape};
 use crate::svg::Step;
-use crate::svg::group::holds_open_blend;
+use crate::svg::group::{Effects, holds_open_blend};
 use crate::svg::path::{affine, transformed_bounds};
 use crate::svg::walk::{Place, Walker};
-use crate::tree::{self, Scope};
-use vtex_format::BlendMode;
+use crate::tree;
 
 /// Path elements that one expanded pattern may take; past it the pattern is a patch.
 const MAX_ELEMENTS: f64 = 262_144.0;
@@ -118,16 +117,13 @@ impl<'a> Walker<'a, '_> {
             opacity: 1.0,
             ..inner
         };
-        let children = self.collected(|walker| walker.tiles(pattern, tiles, inner));
-        self.push_scope(Scope {
-            items: [first, self.next_item()],
+        let effects = Effects {
             clips,
-            masks: Vec::new(),
             opacity,
-            blend: BlendMode::Normal,
             isolated: holds_open_blend(pattern.root()),
-            children,
-        });
+            ..Effects::default()
+        };
+        self.scope(first, effects, |walker| walker.tiles(pattern, tiles, inner));
     }
 
     fn tiles(&mut self, pattern: &'a Pattern, tiles: Tiles, place: Place<'a>) {
@@ -166,16 +162,12 @@ impl<'a> Walker<'a, '_> {
         let Some(clips) = self.clip_to(outline, FillRule::NonZero) else {
             return;
         };
-        let children = self.collected(|walker| walker.children(pattern.root(), place));
-        self.push_scope(Scope {
-            items: [first, self.next_item()],
+        let effects = Effects {
             clips,
-            masks: Vec::new(),
-            opacity: 1.0,
-            blend: BlendMode::Normal,
             isolated: holds_open_blend(pattern.root()),
-            children,
-        });
+            ..Effects::default()
+        };
+        self.scope(first, effects, |walker| walker.children(pattern.root(), place));
     }
 
     /// Content that is plain shapes of solid colours: the same shape of all tiles is one outline,

@@ -7,6 +7,8 @@ use vtex_format::{MAX_FRAMES, WarningCode};
 use crate::BakeError;
 use crate::drawing::{FillRule, Paint, Shape, ShapeSource};
 use crate::stroke::{self, StrokeQuality};
+use crate::svg::group::{Effects, holds_open_blend};
+use crate::svg::recolor::Recolor;
 use crate::svg::path::{affine, bez_path, close_subpaths, transformed_bounds};
 use crate::svg::style::stroke_style;
 use crate::svg::{Plan, Step, Subtree};
@@ -63,6 +65,7 @@ pub(crate) fn plan<'a>(
         canvas_from_user: Affine::IDENTITY,
         opacity: 1.0,
         depth: 0,
+        recolor: None,
         element: "",
     };
     walker.children(tree.root(), place);
@@ -100,6 +103,8 @@ pub(super) struct Place<'a> {
     pub(super) opacity: f32,
     /// Frames that evaluators need for the groups around it.
     pub(super) depth: u32,
+    /// What a filter around it does to colours.
+    pub(super) recolor: Option<Recolor>,
     pub(super) element: &'a str,
 }
 
@@ -133,11 +138,11 @@ impl<'a> Walker<'a, '_> {
         match node {
             Node::Group(group) => self.group(node, group, place),
             Node::Path(path) => self.path(node, path, place),
-            Node::Image(image) => {
-                if image.is_visible() {
-                    self.raster(node, place, "image");
-                }
-            }
+            Node::Image(image) => match image.kind() {
+                _ if !image.is_visible() => {}
+                ImageKind::SVG(tree) => self.nested(node, tree, place),
+                _ => self.raster(node, place, "image"),
+            },
             Node::Text(text) => self.group(node, text.flattened(), place),
         }
     }
@@ -226,6 +231,10 @@ impl<'a> Walker<'a, '_> {
         let Some(paint) = paint.filter(Paint::shows) else {
             return;
         };
+        let paint = match place.recolor {
+            Some(recolor) => paint.mapped(|color| recolor.apply(color)),
+            None => paint,
+        };
         let bounds = outline.control_box();
         if !outline.is_finite() || !self.shows(bounds) {
             return;
@@ -273,6 +282,23 @@ impl<'a> Walker<'a, '_> {
     pub(super) fn paint(&mut self, step: Step<'a>) {
         let item = self.add(step);
         self.nodes.push(tree::Node::Item(item));
+    }
+
+    /// An SVG in an `image`, which blends with nothing outside.
+    fn nested(&mut self, node: &'a Node, tree: &'a usvg::Tree, place: Place<'a>) {
+        if !holds_open_blend(tree.root()) {
+            return self.children(tree.root(), place);
+        }
+        let Some(inner) = place.deeper(1) else {
+            return self.raster(node, place, "nesting");
+        };
+        let effects = Effects {
+            isolated: true,
+            ..Effects::default()
+        };
+        self.scope(self.next_item(), effects, |walker| {
+            walker.children(tree.root(), inner);
+        });
     }
 
     pub(super) fn raster(&mut self, node: &'a Node, place: Place<'a>, feature: &'static str) {
