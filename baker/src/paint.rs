@@ -1,10 +1,16 @@
 //! What fills a shape.
 
+use std::sync::Arc;
+
+use vtex_format::Gradient;
+
 /// A colour, or colours that depend on the place.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Paint {
     /// Straight alpha, sRGB-encoded, every opacity folded in.
     Solid([f32; 4]),
+    /// In uv of the canvas, every opacity folded in.
+    Gradient(Arc<Gradient>),
 }
 
 impl Paint {
@@ -12,14 +18,19 @@ impl Paint {
     pub(crate) const BLACK: Self = Self::Solid([0.0, 0.0, 0.0, 1.0]);
 
     /// Whether it hides what lies behind it, everywhere.
+    #[cfg(test)]
     pub(crate) fn is_opaque(&self) -> bool {
-        let Self::Solid([.., alpha]) = self;
-        *alpha >= 1.0
+        match self {
+            Self::Solid([.., alpha]) => *alpha >= 1.0,
+            Self::Gradient(gradient) => gradient.is_opaque(),
+        }
     }
 
     /// Whether anything of it can be seen.
     pub(crate) fn shows(&self) -> bool {
-        let Self::Solid([.., alpha]) = self;
-        *alpha > 0.0
+        match self {
+            Self::Solid([.., alpha]) => *alpha > 0.0,
+            Self::Gradient(gradient) => gradient.stops.iter().any(|stop| stop.color[3] > 0.0),
+        }
     }
 }

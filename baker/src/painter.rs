@@ -15,6 +15,7 @@ use crate::{
     curves::lower::{LoweredOutline, Segment},
     drawing::{FillRule, Item, Paint, Shape},
     geometry::floor_index,
+    gradient,
     grid::Lattice,
     prepare::clean,
 };
@@ -50,7 +51,7 @@ impl Painter {
     /// Draws `svg` as [`crate::bake`] does and lowers every outline to the lattice of `file`, which
     /// was baked from it with `config`.
     ///
-    /// `None` when the file holds more than shapes that are curves of a solid colour.
+    /// `None` when the file holds more than shapes that are curves.
     ///
     /// # Errors
     /// As [`crate::bake`].
@@ -149,8 +150,7 @@ impl Painter {
                 winding += crossing(&self.segments[index as usize], p);
             }
             if shape_here.rule.fills(winding) {
-                let Paint::Solid(color) = shape_here.paint;
-                under(&mut out, color);
+                under(&mut out, color_at(&shape_here.paint, uv));
             }
             if out[3] >= 1.0 {
                 break;
@@ -242,12 +242,20 @@ fn distance(segment: &Segment, p: Point) -> f64 {
     best.0
 }
 
+/// Straight alpha, sRGB-encoded.
+fn color_at(paint: &Paint, uv: [f32; 2]) -> [f64; 4] {
+    match paint {
+        Paint::Solid(color) => color.map(f64::from),
+        Paint::Gradient(gradient) => gradient::color_at(gradient, uv.map(f64::from)),
+    }
+}
+
 /// Puts a straight-alpha colour behind a premultiplied one, in f64: rounding must not depend on how
 /// entries were merged.
-fn under(out: &mut [f64; 4], [r, g, b, a]: [f32; 4]) {
-    let shown = (1.0 - out[3]) * f64::from(a);
+fn under(out: &mut [f64; 4], [r, g, b, a]: [f64; 4]) {
+    let shown = (1.0 - out[3]) * a;
     for (sum, channel) in out.iter_mut().zip([r, g, b, 1.0]) {
-        *sum += shown * f64::from(channel);
+        *sum += shown * channel;
     }
 }
 

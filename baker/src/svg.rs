@@ -3,6 +3,7 @@
 mod cost;
 mod entities;
 mod fonts;
+mod gradient;
 mod images;
 mod path;
 mod source;

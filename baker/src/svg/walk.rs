@@ -7,6 +7,7 @@ use vtex_format::WarningCode;
 use crate::BakeError;
 use crate::drawing::{FillRule, Paint, Shape, ShapeSource};
 use crate::stroke::{self, StrokeQuality, StrokeStyle};
+use crate::svg::gradient::{self, has_too_many_stops};
 use crate::svg::path::{affine, bez_path, close_subpaths, transformed_bounds};
 use crate::svg::{Plan, Step, Subtree};
 use crate::warning::Warnings;
@@ -196,7 +197,7 @@ impl<'a> Walker<'a, '_> {
             usvg::FillRule::EvenOdd => FillRule::EvenOdd,
         };
         let opacity = fill.opacity().get() * place.opacity;
-        let paint = paint(fill.paint(), self.options.fill_color, opacity);
+        let paint = self.paint(fill.paint(), self.options.fill_color, opacity, place);
         self.shape(outline, fill_rule, paint, ShapeSource::Fill, place);
     }
 
@@ -221,7 +222,7 @@ impl<'a> Walker<'a, '_> {
                 .push(code, "stroke-linejoin", place.element, message);
         }
         let opacity = stroke.opacity().get() * place.opacity * expanded.opacity;
-        let paint = paint(stroke.paint(), self.options.stroke_color, opacity);
+        let paint = self.paint(stroke.paint(), self.options.stroke_color, opacity, place);
         self.shape(
             expanded.outline,
             FillRule::NonZero,
@@ -229,6 +230,31 @@ impl<'a> Walker<'a, '_> {
             ShapeSource::Stroke,
             place,
         );
+    }
+
+    /// A replacement's own alpha multiplies the opacity of the shape.
+    fn paint(
+        &self,
+        paint: &usvg::Paint,
+        replacement: Option<[f32; 4]>,
+        opacity: f32,
+        place: Place<'a>,
+    ) -> Option<Paint> {
+        if let Some([r, g, b, a]) = replacement {
+            return Some(Paint::Solid([r, g, b, a * opacity]));
+        }
+        let uv_from_canvas =
+            Affine::scale_non_uniform(1.0 / self.canvas.width(), 1.0 / self.canvas.height());
+        let uv_from_user = uv_from_canvas * place.canvas_from_user;
+        match paint {
+            usvg::Paint::Color(c) => {
+                let [r, g, b] = [c.red, c.green, c.blue].map(|v| f32::from(v) / 255.0);
+                Some(Paint::Solid([r, g, b, opacity]))
+            }
+            usvg::Paint::LinearGradient(it) => gradient::linear(it, opacity, uv_from_user),
+            usvg::Paint::RadialGradient(it) => gradient::radial(it, opacity, uv_from_user),
+            usvg::Paint::Pattern(_) => None,
+        }
     }
 
     fn shape(
@@ -287,7 +313,7 @@ impl<'a> Walker<'a, '_> {
             && bounds.y1 > self.canvas.y0
     }
 
-    /// The first paint of a visible path that is not a solid colour.
+    /// The first paint of a visible path that no shape can have.
     fn foreign_paint(&self, path: &usvg::Path) -> Option<&'static str> {
         let fill = path.fill().filter(|_| self.options.fill_color.is_none());
         let stroke = path
@@ -381,22 +407,10 @@ fn holds_open_blend(group: &Group) -> bool {
 fn foreign(paint: &usvg::Paint) -> Option<&'static str> {
     match paint {
         usvg::Paint::Color(_) => None,
-        usvg::Paint::LinearGradient(_) => Some("linearGradient"),
-        usvg::Paint::RadialGradient(_) => Some("radialGradient"),
+        usvg::Paint::LinearGradient(it) => has_too_many_stops(it).then_some("linearGradient"),
+        usvg::Paint::RadialGradient(it) => has_too_many_stops(it).then_some("radialGradient"),
         usvg::Paint::Pattern(_) => Some("pattern"),
     }
-}
-
-/// A replacement's own alpha multiplies the opacity of the shape.
-fn paint(paint: &usvg::Paint, replacement: Option<[f32; 4]>, opacity: f32) -> Option<Paint> {
-    if let Some([r, g, b, a]) = replacement {
-        return Some(Paint::Solid([r, g, b, a * opacity]));
-    }
-    let usvg::Paint::Color(c) = paint else {
-        return None;
-    };
-    let [r, g, b] = [c.red, c.green, c.blue].map(|v| f32::from(v) / 255.0);
-    Some(Paint::Solid([r, g, b, opacity]))
 }
 
 fn stroke_style(stroke: &usvg::Stroke) -> StrokeStyle {
