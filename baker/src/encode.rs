@@ -93,7 +93,7 @@ pub(crate) fn assemble(
     let meta = records::meta(&drawing, config, &lattice, curve_lattice, &scales, outline);
     let shapes = records::shape_records(&input, &lattice);
     let layers = layers.records(&lists);
-    let paints = paints.into_records();
+    let (paints, gradients) = paints.into_records();
     let spec = spec_key_from_parts(&SpecParts {
         sampler: &meta.sampler,
         texels_per_cell: lattice.grid.texels_per_cell,
@@ -108,7 +108,7 @@ pub(crate) fn assemble(
         spec,
         shader,
         paints,
-        gradients: Vec::new(),
+        gradients,
         shapes,
         layers,
         cells: lists.words,

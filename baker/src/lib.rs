@@ -35,6 +35,7 @@ mod encode;
 mod encode_tests;
 mod error;
 mod geometry;
+mod gradient;
 mod grid;
 mod judge;
 mod mips;

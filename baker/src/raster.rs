@@ -2,9 +2,11 @@
 
 use kurbo::{Affine, BezPath, PathEl, Point, Rect};
 use tiny_skia::{
-    Color, FillRule as SkiaFillRule, Paint, Path, PathBuilder, Pixmap, PixmapMut, PixmapPaint,
-    Transform,
+    Color, FillRule as SkiaFillRule, GradientStop as SkiaStop, LinearGradient, Paint, Path,
+    PathBuilder, Pixmap, PixmapMut, PixmapPaint, Point as SkiaPoint, RadialGradient, Shader,
+    SpreadMode, Transform,
 };
+use vtex_format::{Gradient, GradientShape, GradientStop, Spread};
 
 use crate::drawing::{self, FillRule, Item, Patch, Shape};
 use crate::resample;
@@ -18,6 +20,8 @@ pub(crate) struct View {
     pub(crate) scale: [f64; 2],
     /// Texel coordinates of the window's top-left corner.
     pub(crate) origin: [f64; 2],
+    /// Texels of the whole canvas.
+    pub(crate) canvas: [f64; 2],
 }
 
 impl View {
@@ -28,6 +32,7 @@ impl View {
             size,
             scale,
             origin: [0.0; 2],
+            canvas: size.map(f64::from),
         }
     }
 
@@ -41,6 +46,12 @@ impl View {
             -self.origin[0],
             -self.origin[1],
         ])
+    }
+
+    /// From uv of the canvas to texels of the window.
+    fn texel_from_uv(self) -> Affine {
+        let [x, y] = self.origin;
+        Affine::translate((-x, -y)) * Affine::scale_non_uniform(self.canvas[0], self.canvas[1])
     }
 }
 
@@ -57,7 +68,7 @@ pub(crate) fn paint(items: &[Item], view: View, pixmap: &mut PixmapMut<'_>) {
     let window = Rect::new(0.0, 0.0, f64::from(view.size[0]), f64::from(view.size[1]));
     for item in items {
         match item {
-            Item::Shape(shape) => paint_shape(shape, texel_from_canvas, window, pixmap),
+            Item::Shape(shape) => paint_shape(shape, view, window, pixmap),
             Item::Patch(patch) => paint_patch(patch, texel_from_canvas, window, pixmap),
             Item::Clip(_) => {}
         }
@@ -71,7 +82,8 @@ fn misses(bounds: Rect, window: Rect) -> bool {
         || bounds.y0 >= window.y1 + 1.0
 }
 
-fn paint_shape(shape: &Shape, transform: Affine, window: Rect, pixmap: &mut PixmapMut<'_>) {
+fn paint_shape(shape: &Shape, view: View, window: Rect, pixmap: &mut PixmapMut<'_>) {
+    let transform = view.texel_from_canvas();
     if misses(
         transform.transform_rect_bbox(shape.outline.control_box()),
         window,
@@ -81,20 +93,69 @@ fn paint_shape(shape: &Shape, transform: Affine, window: Rect, pixmap: &mut Pixm
     let Some(path) = skia_path(&shape.outline, transform) else {
         return;
     };
-    let drawing::Paint::Solid([r, g, b, a]) = shape.paint;
-    let Some(color) = Color::from_rgba(r, g, b, a) else {
+    let shader = match &shape.paint {
+        drawing::Paint::Solid(color) => skia_color(*color).map(Shader::SolidColor),
+        drawing::Paint::Gradient(it) => skia_gradient(it, view.texel_from_uv()),
+    };
+    let Some(shader) = shader else {
         return;
     };
-    let mut paint = Paint {
+    let paint = Paint {
         anti_alias: true,
+        shader,
         ..Paint::default()
     };
-    paint.set_color(color);
     let rule = match shape.fill_rule {
         FillRule::NonZero => SkiaFillRule::Winding,
         FillRule::EvenOdd => SkiaFillRule::EvenOdd,
     };
     pixmap.fill_path(&path, &paint, rule, Transform::identity(), None);
+}
+
+fn skia_color([r, g, b, a]: [f32; 4]) -> Option<Color> {
+    Color::from_rgba(r, g, b, a)
+}
+
+/// The gradient as tiny-skia has it; `None` where it can not paint it.
+fn skia_gradient(gradient: &Gradient, texel_from_uv: Affine) -> Option<Shader<'static>> {
+    let stop = |stop: &GradientStop| Some(SkiaStop::new(stop.offset, skia_color(stop.color)?));
+    let stops = gradient
+        .stops
+        .iter()
+        .map(stop)
+        .collect::<Option<Vec<_>>>()?;
+    let mode = match gradient.spread {
+        Spread::Pad => SpreadMode::Pad,
+        Spread::Reflect => SpreadMode::Reflect,
+        Spread::Repeat => SpreadMode::Repeat,
+    };
+    let from = |circle_from_uv: [f64; 6]| {
+        skia_transform(texel_from_uv * Affine::new(circle_from_uv).inverse())
+    };
+    let point = SkiaPoint::from_xy;
+    match gradient.shape {
+        GradientShape::Linear { t_from_uv } => {
+            let [a, b, c] = t_from_uv.map(f64::from);
+            // The other axis at right angles in uv.
+            let transform = from([a, -b, b, a, c, 0.0]);
+            LinearGradient::new(point(0.0, 0.0), point(1.0, 0.0), stops, mode, transform)
+        }
+        GradientShape::Radial {
+            circle_from_uv,
+            distance,
+            focal_radius,
+        } => {
+            let transform = from(circle_from_uv.map(f64::from));
+            let (start, end) = (point(0.0, 0.0), point(distance, 0.0));
+            RadialGradient::new(start, focal_radius, end, 1.0, stops, mode, transform)
+        }
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "tiny-skia works in f32")]
+fn skia_transform(transform: Affine) -> Transform {
+    let [a, b, c, d, e, f] = transform.as_coeffs().map(|x| x as f32);
+    Transform::from_row(a, b, c, d, e, f)
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "tiny-skia works in f32")]

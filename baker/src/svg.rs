@@ -5,6 +5,7 @@ mod cost;
 mod entities;
 mod fold;
 mod fonts;
+mod gradient;
 mod group;
 mod images;
 mod path;

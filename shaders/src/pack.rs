@@ -2,8 +2,8 @@
 
 use half::f16;
 use vtex_format::{
-    AddressMode, Features, Gradient, GradientShape, Image, MAX_MIPS, PaintRecord, SHADER_ABI, SamplerSettings, SpecKey,
-    VtexFile,
+    AddressMode, Features, Gradient, GradientShape, Image, MAX_MIPS, PaintRecord, SHADER_ABI,
+    SamplerSettings, SpecKey, VtexFile,
 };
 
 use crate::cpu::{color, to_f32};
@@ -168,7 +168,11 @@ fn gradient_words(words: &mut Vec<u32>, stored: &Gradient) {
             focal_radius,
         } => {
             let round = distance <= 0.0 && focal_radius <= 0.0;
-            let kind = if round { gradient::ROUND } else { gradient::CIRCLES };
+            let kind = if round {
+                gradient::ROUND
+            } else {
+                gradient::CIRCLES
+            };
             words.extend([a, c, e].map(f32::to_bits));
             words.push(about | kind);
             let leading = stored.shape.leading() as f32;
@@ -177,8 +181,16 @@ fn gradient_words(words: &mut Vec<u32>, stored: &Gradient) {
         }
     }
     words.extend(stored.stops.iter().map(|stop| stop.offset.to_bits()));
-    words.resize(words.len().next_multiple_of(GROUP_WORDS), OFFSET_END.to_bits());
-    words.extend(stored.stops.iter().flat_map(|stop| stop.color.map(f32::to_bits)));
+    words.resize(
+        words.len().next_multiple_of(GROUP_WORDS),
+        OFFSET_END.to_bits(),
+    );
+    words.extend(
+        stored
+            .stops
+            .iter()
+            .flat_map(|stop| stop.color.map(f32::to_bits)),
+    );
 }
 
 fn image_words(words: &mut Vec<u32>, images: &[Image]) {

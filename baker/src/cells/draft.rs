@@ -119,8 +119,9 @@ fn merge<'a>(
 ) -> bool {
     match (front, back) {
         (Draft::Full { paint }, Draft::Full { paint: behind }) => {
-            *paint = paints.intern_over(*paint, *behind);
-            true
+            let both = paints.intern_over(*paint, *behind);
+            *paint = both.unwrap_or(*paint);
+            both.is_some()
         }
         (
             Draft::Tile { paint, tile },

@@ -208,7 +208,7 @@ impl<'a> Drafting<'a, '_, '_> {
         let units = self.nodes(&mask.children, present);
         match units.as_slice() {
             [] => Ok(0.0),
-            [Unit::Entry(Draft::Full { paint })] => match self.paints.solid(*paint) {
+            [Unit::Entry(Draft::Full { paint })] => match self.paints.color(*paint) {
                 Some(color) => Ok(color::mask_weight(mask.kind, color)),
                 None => Err(units),
             },

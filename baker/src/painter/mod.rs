@@ -18,6 +18,7 @@ use crate::{
     curves::lower::{LoweredOutline, Segment},
     drawing::{FillRule, Item, Paint},
     geometry::floor_index,
+    gradient,
     grid::Lattice,
     prepare::clean,
     tree::{Node, Tree},
@@ -56,7 +57,7 @@ impl Painter {
     /// Draws `svg` as [`crate::bake`] does and lowers every outline to the lattice of `file`, which
     /// was baked from it with `config`.
     ///
-    /// `None` when the file holds more than shapes that are curves of a solid colour.
+    /// `None` when the file holds more than shapes that are curves.
     ///
     /// # Errors
     /// As [`crate::bake`].
@@ -143,17 +144,18 @@ impl Painter {
 
     /// What a point lookup at `uv`, in \[0, 1\]^2, returns: linear light, premultiplied.
     pub fn color(&self, uv: [f32; 2]) -> [f32; 4] {
-        let mut items = self.covering(self.point(uv));
+        let mut items = self.covering(uv);
         items.reverse();
         let covering = tree::Covering {
             items: &items,
-            color: |item: u32| self.paint_of(item),
+            color: |item: u32| self.paint_of(item, uv),
         };
         linear(covering.paint(&self.tree.roots, [0.0; 4]))
     }
 
-    /// The items that `p` lies in, front to back, as far as they can show.
-    fn covering(&self, p: Point) -> Vec<u32> {
+    /// The items that `uv` lies in, front to back, as far as they can show.
+    fn covering(&self, uv: [f32; 2]) -> Vec<u32> {
+        let p = self.point(uv);
         let plain = self
             .tree
             .roots
@@ -176,7 +178,7 @@ impl Painter {
             if shape.rule.fills(winding) {
                 let item = u32::try_from(self.shapes.len() - first).unwrap_or(u32::MAX);
                 items.push(item);
-                if plain && self.paint_of(item)[3] >= 1.0 {
+                if plain && self.paint_of(item, uv)[3] >= 1.0 {
                     break;
                 }
             }
@@ -185,12 +187,10 @@ impl Painter {
     }
 
     /// Colour of an item, straight alpha, sRGB-encoded.
-    fn paint_of(&self, item: u32) -> [f32; 4] {
+    fn paint_of(&self, item: u32, uv: [f32; 2]) -> [f64; 4] {
         let shape = &self.shapes[self.shapes.len() - 1 - item as usize];
-        match &shape.paint {
-            Some(Paint::Solid(color)) => *color,
-            None => [0.0; 4],
-        }
+        let paint = shape.paint.as_ref();
+        paint.map_or([0.0; 4], |paint| color_at(paint, uv))
     }
 
     /// Distance from `uv` to the nearest outline of any shape, in units of the file's curve
@@ -273,6 +273,14 @@ fn distance(segment: &Segment, p: Point) -> f64 {
         (from, to) = ((best.1 - step).max(0.0), (best.1 + step).min(1.0));
     }
     best.0
+}
+
+/// Straight alpha, sRGB-encoded.
+fn color_at(paint: &Paint, uv: [f32; 2]) -> [f64; 4] {
+    match paint {
+        Paint::Solid(color) => color.map(f64::from),
+        Paint::Gradient(gradient) => gradient::color_at(gradient, uv.map(f64::from)),
+    }
 }
 
 fn linear(premultiplied: [f64; 4]) -> [f32; 4] {

@@ -15,7 +15,7 @@ pub(super) struct Covering<'a, P> {
     pub(super) color: P,
 }
 
-impl<P: Fn(u32) -> [f32; 4]> Covering<'_, P> {
+impl<P: Fn(u32) -> [f64; 4]> Covering<'_, P> {
     /// `nodes` painted over `ground`: sRGB-encoded, premultiplied, in f64: rounding must not depend
     /// on how entries were merged.
     pub(super) fn paint(&self, nodes: &[Node], ground: [f64; 4]) -> [f64; 4] {
@@ -81,8 +81,7 @@ impl<P: Fn(u32) -> [f32; 4]> Covering<'_, P> {
 }
 
 /// A straight-alpha colour over a premultiplied one.
-fn over([r, g, b, a]: [f32; 4], behind: [f64; 4]) -> [f64; 4] {
-    let alpha = f64::from(a);
-    let front = [r, g, b, 1.0].map(|c| f64::from(c) * alpha);
-    std::array::from_fn(|i| front[i] + (1.0 - alpha) * behind[i])
+fn over([r, g, b, a]: [f64; 4], behind: [f64; 4]) -> [f64; 4] {
+    let front = [r, g, b, 1.0].map(|c| c * a);
+    std::array::from_fn(|i| front[i] + (1.0 - a) * behind[i])
 }

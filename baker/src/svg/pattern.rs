@@ -178,7 +178,8 @@ impl<'a> Walker<'a, '_> {
         };
         let (first, elements) = (self.steps.len(), self.element_count);
         // Walked in a place where all of it shows: none of it may be left out as unseen.
-        let canvas = std::mem::replace(&mut self.canvas, Rect::new(-1e9, -1e9, 1e9, 1e9));
+        let everywhere = Rect::new(-1e9, -1e9, 1e9, 1e9);
+        let window = std::mem::replace(&mut self.window, everywhere);
         let nodes = self.collected(|walker| {
             let place = Place {
                 canvas_from_user: place_of_one,
@@ -186,7 +187,7 @@ impl<'a> Walker<'a, '_> {
             };
             walker.children(pattern.root(), place);
         });
-        self.canvas = canvas;
+        self.window = window;
         let steps = self.steps.split_off(first);
         self.element_count = elements;
         let plain = nodes.iter().all(|node| matches!(node, tree::Node::Item(_)))
@@ -203,7 +204,7 @@ impl<'a> Walker<'a, '_> {
             }
             self.element_count += outline.elements().len();
             if self.shows(outline.control_box()) {
-                self.paint(Step::Shape(Shape { outline, ..shape }));
+                self.show(Step::Shape(Shape { outline, ..shape }));
             }
         }
         true

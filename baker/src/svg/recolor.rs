@@ -183,7 +183,7 @@ mod tests {
         let [r, g, b, _] = turned.unwrap();
         assert!(g > 0.4 && r < 0.1 && b < 0.1, "{turned:?}");
         let same = recolored("<feColorMatrix type='hueRotate' values='0'/>", [0.2, 0.3, 0.4, 1.0]);
-        let off = same.unwrap().iter().zip([0.2, 0.3, 0.4, 1.0]).map(|(a, b)| (a - b).abs());
+        let off = same.unwrap().into_iter().zip([0.2, 0.3, 0.4, 1.0]).map(|(a, b)| (a - b).abs());
         assert!(off.fold(0.0, f32::max) < 1e-6);
     }
 

@@ -7,6 +7,7 @@ use vtex_format::{MAX_FRAMES, WarningCode};
 use crate::BakeError;
 use crate::drawing::{FillRule, Paint, Shape, ShapeSource};
 use crate::stroke::{self, StrokeQuality};
+use crate::svg::gradient::{self, has_too_many_stops};
 use crate::svg::group::{Effects, holds_open_blend};
 use crate::svg::recolor::Recolor;
 use crate::svg::path::{affine, bez_path, close_subpaths, transformed_bounds};
@@ -49,10 +50,12 @@ pub(crate) fn plan<'a>(
     warnings: &Warnings,
 ) -> Result<Plan<'a>, BakeError> {
     let canvas_size = [tree.size().width(), tree.size().height()].map(f64::from);
+    let canvas = Rect::new(0.0, 0.0, canvas_size[0], canvas_size[1]);
     let mut walker = Walker {
         options,
         warnings,
-        canvas: Rect::new(0.0, 0.0, canvas_size[0], canvas_size[1]),
+        canvas,
+        window: canvas,
         quality: StrokeQuality {
             canvas_longer_side: canvas_size[0].max(canvas_size[1]),
             max_zoom: options.max_zoom,
@@ -88,6 +91,8 @@ pub(super) struct Walker<'a, 'w> {
     pub(super) options: WalkOptions,
     pub(super) warnings: &'w Warnings,
     pub(super) canvas: Rect,
+    /// What outlines have to meet to be kept: the canvas, unless they are copied elsewhere.
+    pub(super) window: Rect,
     quality: StrokeQuality,
     pub(super) steps: Vec<Step<'a>>,
     pub(super) nodes: Vec<tree::Node>,
@@ -181,7 +186,7 @@ impl<'a> Walker<'a, '_> {
         if let (usvg::Paint::Pattern(pattern), None) = (fill.paint(), self.options.fill_color) {
             return self.pattern(pattern, outline, fill_rule, opacity, place);
         }
-        let paint = paint(fill.paint(), self.options.fill_color, opacity);
+        let paint = self.paint(fill.paint(), self.options.fill_color, opacity, place);
         self.shape(outline, fill_rule, paint, ShapeSource::Fill, place);
     }
 
@@ -210,7 +215,7 @@ impl<'a> Walker<'a, '_> {
             let rule = FillRule::NonZero;
             return self.pattern(pattern, expanded.outline, rule, opacity, place);
         }
-        let paint = paint(stroke.paint(), self.options.stroke_color, opacity);
+        let paint = self.paint(stroke.paint(), self.options.stroke_color, opacity, place);
         self.shape(
             expanded.outline,
             FillRule::NonZero,
@@ -218,6 +223,31 @@ impl<'a> Walker<'a, '_> {
             ShapeSource::Stroke,
             place,
         );
+    }
+
+    /// A replacement's own alpha multiplies the opacity of the shape.
+    fn paint(
+        &self,
+        paint: &usvg::Paint,
+        replacement: Option<[f32; 4]>,
+        opacity: f32,
+        place: Place<'a>,
+    ) -> Option<Paint> {
+        if let Some([r, g, b, a]) = replacement {
+            return Some(Paint::Solid([r, g, b, a * opacity]));
+        }
+        let uv_from_canvas =
+            Affine::scale_non_uniform(1.0 / self.canvas.width(), 1.0 / self.canvas.height());
+        let uv_from_user = uv_from_canvas * place.canvas_from_user;
+        match paint {
+            usvg::Paint::Color(c) => {
+                let [r, g, b] = [c.red, c.green, c.blue].map(|v| f32::from(v) / 255.0);
+                Some(Paint::Solid([r, g, b, opacity]))
+            }
+            usvg::Paint::LinearGradient(it) => gradient::linear(it, opacity, uv_from_user),
+            usvg::Paint::RadialGradient(it) => gradient::radial(it, opacity, uv_from_user),
+            usvg::Paint::Pattern(_) => None,
+        }
     }
 
     fn shape(
@@ -244,7 +274,7 @@ impl<'a> Walker<'a, '_> {
         }
         self.element_count += outline.elements().len();
         let element = place.element.to_owned();
-        self.paint(Step::Shape(Shape {
+        self.show(Step::Shape(Shape {
             outline,
             fill_rule,
             paint,
@@ -279,7 +309,8 @@ impl<'a> Walker<'a, '_> {
         item
     }
 
-    pub(super) fn paint(&mut self, step: Step<'a>) {
+    /// Adds an item that is painted here.
+    pub(super) fn show(&mut self, step: Step<'a>) {
         let item = self.add(step);
         self.nodes.push(tree::Node::Item(item));
     }
@@ -306,7 +337,7 @@ impl<'a> Walker<'a, '_> {
         if !bounds.is_finite() || !self.shows(bounds) {
             return;
         }
-        self.paint(Step::Raster(Subtree {
+        self.show(Step::Raster(Subtree {
             node,
             canvas_from_parent: place.canvas_from_user,
             bounds,
@@ -316,13 +347,13 @@ impl<'a> Walker<'a, '_> {
     }
 
     pub(super) fn shows(&self, bounds: Rect) -> bool {
-        bounds.x0 < self.canvas.x1
-            && bounds.x1 > self.canvas.x0
-            && bounds.y0 < self.canvas.y1
-            && bounds.y1 > self.canvas.y0
+        bounds.x0 < self.window.x1
+            && bounds.x1 > self.window.x0
+            && bounds.y0 < self.window.y1
+            && bounds.y1 > self.window.y0
     }
 
-    /// The first paint of a visible path that is not a solid colour.
+    /// The first paint of a visible path that no shape can have.
     pub(super) fn foreign_paint(&self, path: &usvg::Path) -> Option<&'static str> {
         let fill = path.fill().filter(|_| self.options.fill_color.is_none());
         let stroke = path
@@ -342,22 +373,10 @@ impl<'a> Walker<'a, '_> {
 fn foreign(paint: &usvg::Paint) -> Option<&'static str> {
     match paint {
         usvg::Paint::Color(_) => None,
-        usvg::Paint::LinearGradient(_) => Some("linearGradient"),
-        usvg::Paint::RadialGradient(_) => Some("radialGradient"),
+        usvg::Paint::LinearGradient(it) => has_too_many_stops(it).then_some("linearGradient"),
+        usvg::Paint::RadialGradient(it) => has_too_many_stops(it).then_some("radialGradient"),
         usvg::Paint::Pattern(_) => Some("pattern"),
     }
-}
-
-/// A replacement's own alpha multiplies the opacity of the shape.
-fn paint(paint: &usvg::Paint, replacement: Option<[f32; 4]>, opacity: f32) -> Option<Paint> {
-    if let Some([r, g, b, a]) = replacement {
-        return Some(Paint::Solid([r, g, b, a * opacity]));
-    }
-    let usvg::Paint::Color(c) = paint else {
-        return None;
-    };
-    let [r, g, b] = [c.red, c.green, c.blue].map(|v| f32::from(v) / 255.0);
-    Some(Paint::Solid([r, g, b, opacity]))
 }
 
 /// What a node may touch. usvg's `abs_*` boxes are not used: they are wrong inside the groups it

@@ -35,8 +35,10 @@ pub(crate) fn shape(outline: BezPath, fill_rule: FillRule, color: [f32; 4]) -> I
 
 /// The colour of a paint that has one.
 pub(crate) fn solid(paint: &Paint) -> [f32; 4] {
-    let Paint::Solid(color) = paint;
-    *color
+    match paint {
+        Paint::Solid(color) => *color,
+        Paint::Gradient(gradient) => panic!("{gradient:?} is no single colour"),
+    }
 }
 
 /// An SVG as the bake sees it, without fonts.

@@ -50,7 +50,11 @@ fn circle(p: [f32; 2], distance: f32, focal: f32, leading: f32) -> Option<f32> {
     let root = discriminant.max(0.0).sqrt();
     let sum = half + if half >= 0.0 { root } else { -root };
     let other = if is_zero(sum) { 0.0 } else { rest / sum };
-    let one = if is_zero(leading) { other } else { sum / leading };
+    let one = if is_zero(leading) {
+        other
+    } else {
+        sum / leading
+    };
     let greater = one.max(other);
     let t = if focal + greater * growth >= 0.0 {
         greater
