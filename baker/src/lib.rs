@@ -29,6 +29,7 @@ mod cover;
 #[cfg(test)]
 mod curve_cells_tests;
 mod curves;
+mod detail;
 mod drawing;
 mod encode;
 #[cfg(test)]

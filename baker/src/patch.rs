@@ -9,6 +9,7 @@ use vtex_format::{Warning, WarningCode};
 
 use crate::color;
 use crate::config::BakeConfig;
+use crate::detail;
 use crate::drawing::{Item, Patch};
 use crate::mips::{self, LinearImage};
 use crate::raster::{self, View};
@@ -329,7 +330,7 @@ impl PatchSettings {
         lattice: [u32; 2],
         [feature, element]: [&str; 2],
     ) -> Patch {
-        let level0 = cropped(pixmap, window, shown);
+        let level0 = detail::fitted(cropped(pixmap, window, shown));
         let uv = |texel: u32, axis: usize| f64::from(texel) / f64::from(lattice[axis]);
         let [left, top, right, bottom] = [
             uv(shown[0], 0),
