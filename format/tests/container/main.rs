@@ -10,3 +10,4 @@ mod forge;
 mod outlined;
 mod roundtrip;
 mod sample;
+mod scoped;
