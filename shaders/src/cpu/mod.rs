@@ -5,6 +5,7 @@
 //! Where the WGSL is specialised by choosing modules, the twin asks the header.
 
 mod address;
+mod blend;
 mod cell;
 pub mod color;
 mod composite;
@@ -13,7 +14,10 @@ mod coverage;
 mod edge;
 mod entry;
 mod flat;
+mod flow;
 mod footprint;
+mod frames;
+mod group;
 mod image;
 mod math;
 mod matrix;
@@ -24,6 +28,7 @@ pub(crate) mod plane;
 mod ramp;
 mod run;
 mod sample;
+mod scopes;
 mod segment;
 mod settings;
 mod source;
