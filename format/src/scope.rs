@@ -17,7 +17,7 @@ use crate::{BlendMode, Entry, EntryKind, OPEN_ISOLATED};
 
 /// Groups and clips that may lie in one another: what an evaluator keeps for each is an array of so
 /// many. Deeper drawings are for the baker to flatten.
-pub const MAX_FRAMES: u32 = 16;
+pub const MAX_FRAMES: u32 = 32;
 /// Clips that parsing enters before those with one end become one. Bounds its recursion.
 const MAX_DEPTH: u32 = 64;
 

@@ -1,8 +1,8 @@
 //! Filters that only change colours, applied to the colours instead of to pixels.
 //!
-//! A matrix without constants is linear in premultiplied colour, so in sRGB it may be applied to
-//! what is composited before or after: filter effects, section 9.6, `feColorMatrix`. With constants,
-//! or in linear light, that holds for a single shape only.
+//! A matrix that keeps alpha is linear in premultiplied colour and alpha, so in sRGB it may be applied
+//! to what is composited before or after: filter effects, section 9.6, `feColorMatrix`. In linear
+//! light that holds where nothing is mixed: of a single shape, or where all are opaque.
 
 use usvg::filter::{ColorInterpolation, ColorMatrix, ColorMatrixKind, Filter, Input, Kind};
 use usvg::{BlendMode, Group, Node};
@@ -32,8 +32,8 @@ impl Recolor {
             && region.top() <= drawn.top()
             && region.right() >= drawn.right()
             && region.bottom() >= drawn.bottom();
-        let allowed = contents.plain && (recolor.is_compositable() || contents.shapes <= 1);
-        (allowed && inside && (!recolor.linear || contents.solid)).then_some(recolor)
+        let unmixed = contents.solid && (contents.opaque || contents.shapes <= 1);
+        (contents.plain && inside && (!recolor.linear || unmixed)).then_some(recolor)
     }
 
     fn of_filter(filter: &Filter) -> Option<Self> {
@@ -47,11 +47,6 @@ impl Recolor {
             rows: rows(matrix)?,
             linear: primitive.color_interpolation() == ColorInterpolation::LinearRGB,
         })
-    }
-
-    /// Whether it may be applied before compositing.
-    fn is_compositable(&self) -> bool {
-        !self.linear && self.rows.iter().all(|row| row[3] == 0.0)
     }
 
     /// The changed colour, straight alpha, sRGB-encoded.
@@ -120,6 +115,8 @@ struct Contents {
     plain: bool,
     /// All of one colour each.
     solid: bool,
+    /// None of them translucent.
+    opaque: bool,
 }
 
 impl Contents {
@@ -128,6 +125,7 @@ impl Contents {
             shapes: 0,
             plain: true,
             solid: true,
+            opaque: true,
         };
         contents.add(group);
         contents
@@ -139,13 +137,16 @@ impl Contents {
                 Node::Group(inner) => {
                     self.plain &=
                         inner.filters().is_empty() && inner.blend_mode() == BlendMode::Normal;
+                    self.opaque &= inner.opacity() == usvg::Opacity::ONE && inner.mask().is_none();
                     self.add(inner);
                 }
                 Node::Path(path) if path.is_visible() => {
-                    let fill = path.fill().map(usvg::Fill::paint);
-                    let stroke = path.stroke().map(usvg::Stroke::paint);
-                    for paint in [fill, stroke].into_iter().flatten() {
+                    let fill = path.fill().map(|fill| (fill.paint(), fill.opacity()));
+                    let stroke = path.stroke();
+                    let stroke = stroke.map(|stroke| (stroke.paint(), stroke.opacity()));
+                    for (paint, opacity) in [fill, stroke].into_iter().flatten() {
                         self.shapes += 1;
+                        self.opaque &= opacity == usvg::Opacity::ONE;
                         self.solid &= matches!(paint, usvg::Paint::Color(_));
                         self.plain &= !matches!(paint, usvg::Paint::Pattern(_));
                     }
