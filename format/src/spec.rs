@@ -67,7 +67,7 @@ impl Features {
     /// Some group blends other than normally.
     pub const BLENDS: u32 = 1 << 13;
     /// All bits this version knows.
-    pub const ALL: u32 = (1 << 10) - 1 | Self::CLIPS | Self::GROUPS | Self::BLENDS;
+    pub const ALL: u32 = ((1 << 10) - 1) | Self::CLIPS | Self::GROUPS | Self::BLENDS;
 }
 
 /// The parts of a file that decide what its shader contains.

@@ -315,7 +315,7 @@ fn check_scene(gpu: &Gpu, filter: FilterMode, files: &[(String, VtexFile)]) {
     let mut bases = Vec::new();
     let mut words = Vec::new();
     for texture in &packed {
-        bases.push(u32::try_from(words.len()).unwrap());
+        bases.push(u32::try_from(words.len()).expect("small textures"));
         words.extend(texture);
     }
     let mut queries = random_queries(9, RANDOM_QUERIES, 1.5);
