@@ -17,6 +17,8 @@ use vtex_tests::scopes::{Drawing, Wants};
 
 /// Lookups of a random texture in each filter mode.
 const RANDOM_QUERIES: u32 = 100_000;
+/// The same of random trees of clips and groups.
+const SCOPED_QUERIES: u32 = 30_000;
 /// Lookups of a baked drawing, or of random curves, in point mode, and in each of the others.
 const BAKED_POINT_QUERIES: u32 = 1_000_000;
 const BAKED_OTHER_QUERIES: u32 = 200_000;
@@ -259,7 +261,7 @@ fn twin_and_gpu_agree_on_clips_and_groups() {
     let Some(gpu) = Gpu::open() else { return };
     for (name, file) in scoped_files() {
         let lookups = Lookups {
-            counts: [RANDOM_QUERIES; 3],
+            counts: [SCOPED_QUERIES; 3],
             margin: 0.1,
             torn: TORN_SHARE,
         };

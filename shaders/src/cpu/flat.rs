@@ -33,7 +33,7 @@ impl Sampler<'_> {
         let [low, high] = span.map(|p| {
             [0, 1].map(|axis| clamp(p[axis], ends[0][axis], ends[1][axis]) - corner[axis])
         });
-        if word >> cell::TAG_SHIFT == cell::LIST
+        if matches!(word >> cell::TAG_SHIFT, cell::LIST | cell::SCOPES)
             && !self.is_flat(word & cell::PAYLOAD_MASK, low, high)
         {
             return None;
