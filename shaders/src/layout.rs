@@ -112,8 +112,6 @@ mod feature = "FEATURE" {
     RAMPS = vtex_format::Features::RAMPS;
     /// [`vtex_format::Features::CLIPS`].
     CLIPS = vtex_format::Features::CLIPS;
-    /// [`vtex_format::Features::GROUPS`].
-    GROUPS = vtex_format::Features::GROUPS;
 }
 
 /// Parts of a fine cell's word: tags as of [`vtex_format::CellWord`], a list's payload counts items.
@@ -126,8 +124,10 @@ mod cell = "CELL" {
     EMPTY = 0;
     /// Tag of a cell of one colour.
     SOLID = 1;
-    /// Tag of a cell with a list.
+    /// Tag of a cell with a list, front to back.
     LIST = 2;
+    /// Tag of a cell with a list that is walked with frames, back to front.
+    SCOPES = 3;
 }
 
 /// An item of a list, four words. Curves are an item a segment: upper end, control point, lower

@@ -57,8 +57,7 @@ fn has_canvas_mips(images: &[Image], entry_words: &[u32]) -> bool {
     images.first().is_some_and(spans_canvas) && !entries(entry_words).any(|e| names_first(&e))
 }
 
-/// Whether lists are walked back to front by the evaluator that keeps frames (docs/decisions/0011),
-/// whose walk is the order of their items.
+/// Whether there are lists for the evaluator that keeps frames (docs/decisions/0011).
 pub(crate) const fn is_composited(features: u32) -> bool {
     let ramps = features & (Features::RAMPS | Features::OUTLINE) != 0;
     features & Features::GROUPS != 0 || features & Features::CLIPS != 0 && ramps

@@ -80,14 +80,14 @@ pub fn scene_context(features: u32, slot: BindingSlot) -> LinkContext {
         key.max_entries, key.frames
     );
     let features = key.features & !Features::MASK;
-    let picture = match (is_composited(features), has(Features::CLIPS)) {
-        (true, true) => "vtex/picture_any",
-        (true, false) => "vtex/picture_mixed",
-        (false, true) => "vtex/picture_clips",
-        (false, false) => "vtex/picture_cells",
+    let ramps = has(Features::RAMPS) || has(Features::OUTLINE);
+    let context = slots(features);
+    let context = if has(Features::CLIPS) && ramps {
+        context.fill("vtex/flat", "vtex/flat_any")
+    } else {
+        context
     };
-    slots(features)
-        .fill("vtex/picture", picture)
+    context
         .define("vtex/key", binding(slot) + &constants)
         .fill("vtex/value", &format!("vtex/{value}"))
         .fill("vtex/settings", "vtex/settings_header")
@@ -128,15 +128,16 @@ fn binding(BindingSlot { group, binding }: BindingSlot) -> String {
 
 /// The modules that a set of features needs.
 fn slots(features: u32) -> LinkContext {
+    // A mask's groups blend and weigh in colour; alpha is spread last.
+    let spread = features & Features::MASK != 0 && is_composited(features);
+    let features = if spread {
+        features & !Features::MASK
+    } else {
+        features
+    };
     let has = |feature: u32| features & feature != 0;
     let pick = |feature: u32, with: &'static str, without: &'static str| {
         if has(feature) { with } else { without }
-    };
-    // A mask's groups blend and weigh in colour; alpha is spread last.
-    let alpha = if is_composited(features) {
-        0
-    } else {
-        Features::MASK
     };
     let fixed = [
         (
@@ -149,19 +150,19 @@ fn slots(features: u32) -> LinkContext {
         ),
         (
             "vtex/value",
-            match (has(Features::MASK), has(alpha)) {
-                (false, _) => "vtex/value_color",
-                (true, true) => "vtex/value_mask",
-                (true, false) => "vtex/value_any",
+            match (spread, has(Features::MASK)) {
+                (true, _) => "vtex/value_any",
+                (false, true) => "vtex/value_mask",
+                (false, false) => "vtex/value_color",
             },
         ),
         (
             "vtex/paint",
-            pick(alpha, "vtex/paint_alpha", "vtex/paint_color"),
+            pick(Features::MASK, "vtex/paint_alpha", "vtex/paint_color"),
         ),
         (
             "vtex/texel",
-            pick(alpha, "vtex/texel_alpha", "vtex/texel_color"),
+            pick(Features::MASK, "vtex/texel_alpha", "vtex/texel_color"),
         ),
         (
             "vtex/minify",
@@ -274,13 +275,16 @@ fn cell_slots(features: u32) -> [(&'static str, &'static str); 6] {
 }
 
 /// The modules for lists that clip and group.
-fn scope_slots(features: u32) -> [(&'static str, &'static str); 6] {
+fn scope_slots(features: u32) -> [(&'static str, &'static str); 7] {
     let has = |feature: u32| features & feature != 0;
     let ramps = has(Features::RAMPS) || has(Features::OUTLINE);
-    let picture = match (is_composited(features), has(Features::CLIPS)) {
-        (true, _) => "vtex/picture_scopes",
-        (false, true) => "vtex/picture_clips",
-        (false, false) => "vtex/picture_cells",
+    let picture = match is_composited(features) {
+        true => "vtex/picture_scopes",
+        false => "vtex/picture_flat",
+    };
+    let flat = match has(Features::CLIPS) && !ramps {
+        true => "vtex/flat_clips",
+        false => "vtex/flat_cells",
     };
     let flow = match (has(Features::CLIPS), ramps) {
         (false, _) => "vtex/flow_none",
@@ -301,6 +305,7 @@ fn scope_slots(features: u32) -> [(&'static str, &'static str); 6] {
     };
     [
         ("vtex/picture", picture),
+        ("vtex/flat", flat),
         ("vtex/flow", flow),
         ("vtex/group", group),
         ("vtex/blend", blend),

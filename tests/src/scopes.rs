@@ -145,25 +145,32 @@ fn random_paint(r: &mut Random) -> [f32; 4] {
     } else {
         r.between(0.2, 0.9)
     };
-    [(); 3].map(|()| r.between(0.02, 0.98)).into_rgba(alpha)
+    let [red, green, blue] = [(); 3].map(|()| r.between(0.02, 0.98));
+    [red, green, blue, alpha]
 }
 
-trait IntoRgba {
-    fn into_rgba(self, alpha: f32) -> [f32; 4];
-}
-
-impl IntoRgba for [f32; 3] {
-    fn into_rgba(self, alpha: f32) -> [f32; 4] {
-        [self[0], self[1], self[2], alpha]
-    }
-}
-
-/// A closed polygon of three to five corners anywhere in the box.
+/// A closed polygon around most of the cell, or of three corners anywhere in the box.
+#[expect(
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "16 bits"
+)]
 fn random_record(r: &mut Random) -> Vec<u32> {
-    let units = lattice().box_units();
-    let corners: Vec<[u32; 2]> = (0..3 + r.below(3))
-        .map(|_| [(); 2].map(|()| r.below(units + 1)))
-        .collect();
+    let units = lattice().box_units() as f32;
+    let count = 3 + r.below(4);
+    let around = r.below(4) > 0;
+    let corner = |place: u32| {
+        let turn = (place as f32 + r.unit()) / count as f32 * std::f32::consts::TAU;
+        let far = r.between(0.2, 0.5);
+        let at = if around {
+            [0.5 + far * turn.cos(), 0.5 + far * turn.sin()]
+        } else {
+            [r.unit(), r.unit()]
+        };
+        at.map(|x| (x * units) as u32)
+    };
+    let corners: Vec<[u32; 2]> = (0..count).map(corner).collect();
     polygon_record(&corners)
 }
 

@@ -17,6 +17,8 @@ use vtex_tests::scopes::{Drawing, Wants};
 
 /// Lookups of a random texture in each filter mode.
 const RANDOM_QUERIES: u32 = 100_000;
+/// The same of random trees of clips and groups.
+const SCOPED_QUERIES: u32 = 30_000;
 /// Lookups of a baked drawing, or of random curves, in point mode, and in each of the others.
 const BAKED_POINT_QUERIES: u32 = 1_000_000;
 const BAKED_OTHER_QUERIES: u32 = 200_000;
@@ -35,7 +37,10 @@ const LISTS: u32 = Features::LISTS;
 const CURVES: u32 = Features::LISTS | Features::CURVES;
 const COLOR: u32 = Features::LISTS | Features::MSDF;
 
-/// Feature sets that between them reach every module of the evaluator.
+/// What `scoped_files` has.
+const SCOPES: u32 = Features::CLIPS | Features::GROUPS | Features::BLENDS;
+
+/// Feature sets that between them reach every other module of the evaluator.
 const CASES: [(&str, u32); 14] = [
     ("solid", 0),
     ("full", LISTS | Features::TRANSLUCENT),
@@ -65,7 +70,10 @@ const CASES: [(&str, u32); 14] = [
         "mask",
         COLOR | Features::IMAGES | Features::MASK | Features::MIPS | Features::OUTLINE,
     ),
-    ("all", Features::ALL & !(Features::MASK | Features::RAMPS)),
+    (
+        "all",
+        Features::ALL & !(SCOPES | Features::MASK | Features::RAMPS),
+    ),
 ];
 
 /// Points up to `margin` outside the canvas; footprints from none to the whole of it.
@@ -253,7 +261,7 @@ fn twin_and_gpu_agree_on_clips_and_groups() {
     let Some(gpu) = Gpu::open() else { return };
     for (name, file) in scoped_files() {
         let lookups = Lookups {
-            counts: [RANDOM_QUERIES; 3],
+            counts: [SCOPED_QUERIES; 3],
             margin: 0.1,
             torn: TORN_SHARE,
         };
@@ -309,7 +317,7 @@ fn check_scene(gpu: &Gpu, filter: FilterMode, files: &[(String, VtexFile)]) {
     let mut bases = Vec::new();
     let mut words = Vec::new();
     for texture in &packed {
-        bases.push(u32::try_from(words.len()).unwrap());
+        bases.push(u32::try_from(words.len()).expect("small textures"));
         words.extend(texture);
     }
     let mut queries = random_queries(9, RANDOM_QUERIES, 1.5);

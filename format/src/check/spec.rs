@@ -13,9 +13,7 @@ pub(super) fn spec(file: &VtexFile, bounds: Bounds, issues: &mut Issues) {
         address_u,
         address_v,
         texels_per_cell,
-        max_entries,
-        frames,
-        reserved,
+        ..
     } = file.spec;
     let mut require = |holds: bool, kind, field: u64, message: std::fmt::Arguments<'_>| {
         if !holds {
@@ -74,25 +72,18 @@ pub(super) fn spec(file: &VtexFile, bounds: Bounds, issues: &mut Issues) {
         16,
         format_args!("{texels_per_cell}, not {texels}"),
     );
-    let longest = bounds.longest;
-    let same = max_entries == longest;
-    require(
-        same,
-        issue::SPEC_ENTRIES,
-        20,
-        format_args!("{max_entries}, not {longest}"),
-    );
-    let deepest = bounds.frames;
-    require(
-        frames == deepest,
-        issue::SPEC_FRAMES,
-        24,
-        format_args!("{frames}, not {deepest}"),
-    );
-    require(
-        reserved == 0,
-        issue::SPEC_RESERVED,
-        28,
-        format_args!("not zero"),
-    );
+    self::bounds(&file.spec, bounds, issues);
+}
+
+/// The key's bounds are those of the lists.
+fn bounds(key: &SpecKey, lists: Bounds, issues: &mut Issues) {
+    let mut require = |found: u32, expected: u32, kind, field: u64| {
+        if found != expected {
+            let message = format_args!("{found}, not {expected}");
+            issues.add(kind, Tag::SPEC, field, message);
+        }
+    };
+    require(key.max_entries, lists.longest, issue::SPEC_ENTRIES, 20);
+    require(key.frames, lists.frames, issue::SPEC_FRAMES, 24);
+    require(key.reserved, 0, issue::SPEC_RESERVED, 28);
 }

@@ -1,4 +1,4 @@
-//! Twin of `vtex/cell.wgsl` and `vtex/cells_list.wgsl`.
+//! Twin of `vtex/cell.wgsl`, `vtex/cells_list.wgsl` and `vtex/picture_scopes.wgsl`.
 
 use super::fill::fill;
 use super::math::{clamp, to_u32};
@@ -39,6 +39,11 @@ pub(super) fn shown<V: Value>(sampler: &Sampler<'_>, word: u32, lookup: &Lookup)
             let offset = payload.wrapping_mul(item::WORDS);
             let first = sampler.settings.items.wrapping_add(offset);
             V::composite(sampler, first, lookup)
+        }
+        cell::SCOPES => {
+            let offset = payload.wrapping_mul(item::WORDS);
+            let first = sampler.settings.items.wrapping_add(offset);
+            V::scopes(sampler, first, lookup)
         }
         _ => V::ZERO,
     }

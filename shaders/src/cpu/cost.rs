@@ -47,10 +47,10 @@ impl Sampler<'_> {
         };
         match word >> cell::TAG_SHIFT {
             cell::SOLID => cost.bytes += PAINT_BYTES,
-            cell::LIST => {
+            tag @ (cell::LIST | cell::SCOPES) => {
                 let offset = (word & cell::PAYLOAD_MASK).wrapping_mul(item::WORDS);
                 let first = self.settings.items.wrapping_add(offset);
-                cost.list(self, first, &Lookup { q, ..lookup });
+                cost.list(self, first, &Lookup { q, ..lookup }, tag);
             }
             _ => {}
         }
@@ -59,11 +59,11 @@ impl Sampler<'_> {
 }
 
 impl LookupCost {
-    fn list(&mut self, sampler: &Sampler<'_>, first: u32, lookup: &Lookup) {
+    fn list(&mut self, sampler: &Sampler<'_>, first: u32, lookup: &Lookup, tag: u32) {
         let s = &sampler.settings;
         // What a translucent ramp shows depends on all that lies behind it; so do groups.
         let translucent = s.has(Features::TRANSLUCENT) && s.filter != filter::POINT;
-        let to_the_end = translucent || s.composited;
+        let to_the_end = translucent || tag == cell::SCOPES;
         let mut through = 1.0;
         let mut at = first;
         for _ in 0..MAX_ENTRIES_PER_CELL {

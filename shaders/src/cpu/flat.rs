@@ -36,7 +36,7 @@ impl Sampler<'_> {
         });
         let payload = word & cell::PAYLOAD_MASK;
         let flat = match word >> cell::TAG_SHIFT {
-            cell::LIST => self.is_flat(payload, low, high),
+            cell::LIST | cell::SCOPES => self.is_flat(payload, low, high),
             cell::SOLID => !varies(self, payload),
             _ => true,
         };

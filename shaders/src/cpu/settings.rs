@@ -36,7 +36,7 @@ pub(super) struct Settings {
     /// Units of the curve lattice along a cell, and around it.
     pub(super) curve_lattice: [f32; 2],
     pub(super) features: u32,
-    /// Whether lists are walked by `vtex/scopes`, in whose order their items lie.
+    /// Whether some lists are walked by `vtex/scopes`.
     pub(super) composited: bool,
 }
 

@@ -18,6 +18,8 @@ pub(super) trait Value: Copy {
     fn texel(sampler: &Sampler<'_>, index: u32) -> Self;
     /// Twin of `vtex_composite`.
     fn composite(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) -> Self;
+    /// Twin of `vtex_scopes`.
+    fn scopes(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) -> Self;
     /// Twin of `vtex_value_result`.
     fn result(self) -> [f32; 4];
 }
@@ -60,13 +62,15 @@ impl Value for [f32; 4] {
     }
 
     fn composite(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) -> Self {
-        if sampler.settings.composited {
-            scopes::scopes(sampler, first, lookup)
-        } else if sampler.settings.has(Features::TRANSLUCENT) {
+        if sampler.settings.has(Features::TRANSLUCENT) {
             composite::translucent(sampler, first, lookup)
         } else {
             composite::front(sampler, first, lookup)
         }
+    }
+
+    fn scopes(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) -> Self {
+        scopes::scopes(sampler, first, lookup)
     }
 
     fn result(self) -> [f32; 4] {
@@ -104,6 +108,11 @@ impl Value for f32 {
 
     fn composite(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) -> Self {
         composite::front(sampler, first, lookup)
+    }
+
+    /// Masks with such lists are looked up in colour.
+    fn scopes(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) -> Self {
+        scopes::scopes(sampler, first, lookup)[3]
     }
 
     fn result(self) -> [f32; 4] {

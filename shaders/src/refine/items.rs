@@ -15,7 +15,7 @@ const LOWEST: u32 = 0xffff;
 
 /// In which order blocks beside each other lie in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Order {
+pub(super) enum Order {
     /// For evaluators that stop at what hides the rest.
     FrontToBack,
     /// For those that composite groups: each needs what lies behind it first.

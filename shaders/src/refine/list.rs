@@ -73,6 +73,11 @@ impl List {
         }
     }
 
+    /// Whether evaluators need frames for it: for groups, and for clips where edges are ramps.
+    pub(super) fn needs_frames(&self, distances: bool) -> bool {
+        needs_frames(&self.nodes, distances)
+    }
+
     /// The paint that fills the region, if nothing else shows.
     pub(super) fn solid(&self) -> Option<u32> {
         match self.nodes.as_slice() {
@@ -90,6 +95,14 @@ impl List {
     pub(super) fn items(&self, order: Order) -> Vec<[u32; 4]> {
         items(&self.nodes, order)
     }
+}
+
+fn needs_frames(nodes: &[Node], distances: bool) -> bool {
+    nodes.iter().any(|node| match node {
+        Node::Draw(_) => false,
+        Node::Clip(clip) => distances || needs_frames(&clip.body, distances),
+        Node::Group(_) => true,
+    })
 }
 
 pub(super) fn any_outline(nodes: &[Node]) -> bool {

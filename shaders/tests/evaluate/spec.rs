@@ -79,16 +79,17 @@ fn code_of_absent_features_is_not_in_the_text() {
         let images = lists && has(Features::IMAGES);
         // An image's texels may be translucent.
         let translucent = lists && (has(Features::TRANSLUCENT) || images);
-        let mask = has(Features::MASK);
         let edges = msdf || curves;
         // [SFG22] eq. 2 draws by distance whatever the filter.
         let ramps = edges && (has(Features::RAMPS) || has(Features::OUTLINE));
         let outline = edges && has(Features::OUTLINE);
         let scopes = groups || clips && ramps;
+        // With groups a mask is looked up in colour.
+        let mask = has(Features::MASK) && !scopes;
         let one_walk = !outline && (!translucent || mask) && msdf != curves;
         for (symbol, wanted) in [
-            ("vtex_composite", ramps && !one_walk && !scopes),
-            ("vtex_hit", lists && !ramps && !scopes),
+            ("vtex_composite", ramps && !one_walk),
+            ("vtex_hit", lists && !ramps),
             ("vtex_inside", lists && !ramps),
             ("vtex_msdf_", msdf),
             ("vtex_math_median", msdf),
@@ -96,7 +97,7 @@ fn code_of_absent_features_is_not_in_the_text() {
             ("vtex_segment_winding", curves),
             ("vtex_segment_distance", curves && ramps),
             ("fn vtex_edge(", ramps && (!one_walk || scopes)),
-            ("vtex_reach_", ramps && one_walk && !scopes),
+            ("vtex_reach_", ramps && one_walk),
             ("vtex_ramp_", ramps),
             ("vtex_image_", images || has(Features::MIPS)),
             ("vtex_texel", images || has(Features::MIPS)),
@@ -108,8 +109,8 @@ fn code_of_absent_features_is_not_in_the_text() {
             ),
             ("vtex_color_decode", translucent && !mask || scopes),
             ("vtex_matrix_linear", has(Features::TEXTURE_MATRIX)),
-            ("alias VtexValue = f32;", mask && !scopes),
-            ("vtex_clips", clips && !scopes),
+            ("alias VtexValue = f32;", mask),
+            ("vtex_clips", clips && !ramps),
             ("vtex_scopes", scopes),
             ("vtex_frames", scopes),
             ("vtex_flow_wait", clips && ramps),

@@ -38,13 +38,13 @@ const VTEX_FEATURE_MASK: u32 = 0x20u;
 const VTEX_FEATURE_OUTLINE: u32 = 0x40u;
 const VTEX_FEATURE_RAMPS: u32 = 0x200u;
 const VTEX_FEATURE_CLIPS: u32 = 0x800u;
-const VTEX_FEATURE_GROUPS: u32 = 0x1000u;
 
 const VTEX_CELL_TAG_SHIFT: u32 = 30u;
 const VTEX_CELL_PAYLOAD_MASK: u32 = 0x3fffffffu;
 const VTEX_CELL_EMPTY: u32 = 0u;
 const VTEX_CELL_SOLID: u32 = 1u;
 const VTEX_CELL_LIST: u32 = 2u;
+const VTEX_CELL_SCOPES: u32 = 3u;
 
 const VTEX_ITEM_WORDS: u32 = 4u;
 const VTEX_ITEM_INDEX_MASK: u32 = 0x3ffffu;

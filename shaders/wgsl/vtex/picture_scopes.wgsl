@@ -1,6 +1,13 @@
+//!use core/layout
+//!use vtex/cell
+//!use vtex/flat
 //!use vtex/scopes
-// The picture: lists hold groups, or clips with ramps.
+// The picture: some lists hold groups, or clips with ramps.
 
 fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> VtexValue {
-    return vtex_scopes(vt, lookup);
+    let cell = vtex_cell(vt, lookup);
+    if (cell.word >> VTEX_CELL_TAG_SHIFT) == VTEX_CELL_SCOPES {
+        return vtex_scopes(vt, lookup, cell);
+    }
+    return vtex_flat(vt, lookup);
 }

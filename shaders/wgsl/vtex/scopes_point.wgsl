@@ -2,28 +2,23 @@
 //!use core/decode
 //!use vtex/words
 //!use vtex/cell
-//!use vtex/fill
+//!use vtex/value
 //!use vtex/inside
 //!use vtex/tint
 //!use vtex/frames
 //!use vtex/flow
 //!use vtex/group
-// The picture from cells whose lists hold groups, where edges are hard: one walk over the items,
+// The picture from a cell whose list holds groups, where edges are hard: one walk over the items,
 // which lie back to front, sRGB-encoded.
 
-fn vtex_scopes(vt: VtexTexture, lookup: VtexLookup) -> VtexValue {
-    let cell = vtex_cell(vt, lookup);
+fn vtex_scopes(vt: VtexTexture, lookup: VtexLookup, cell: VtexCell) -> VtexValue {
     let payload = cell.word & VTEX_CELL_PAYLOAD_MASK;
-    let tag = cell.word >> VTEX_CELL_TAG_SHIFT;
-    if tag == VTEX_CELL_SOLID {
-        return vtex_fill(vt, payload, lookup);
-    }
     let inside = VtexLookup(lookup.uv, lookup.width_squared, cell.q);
     let p = vtex_inside_point(vt, cell.q);
     let first = vt.items + payload * VTEX_ITEM_WORDS;
     var frames = vtex_frames_start();
     var winding = 0;
-    var walks = tag == VTEX_CELL_LIST;
+    var walks = true;
     for (var i = 0u; i < VTEX_ITEM_LIMIT; i += 1u) {
         if !walks {
             break;

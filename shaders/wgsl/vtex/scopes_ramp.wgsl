@@ -1,29 +1,21 @@
 //!use core/layout
 //!use vtex/words
 //!use vtex/cell
-//!use vtex/fill
+//!use vtex/value
 //!use vtex/coverage
 //!use vtex/entry
 //!use vtex/over
 //!use vtex/frames
 //!use vtex/flow
 //!use vtex/group
-// The picture from cells whose lists hold groups, or clips, where edges are ramps: entry by entry,
+// The picture from a cell whose list holds groups, or clips, where edges are ramps: entry by entry,
 // which lie back to front, in linear light.
 
-fn vtex_scopes(vt: VtexTexture, lookup: VtexLookup) -> VtexValue {
-    let cell = vtex_cell(vt, lookup);
+fn vtex_scopes(vt: VtexTexture, lookup: VtexLookup, cell: VtexCell) -> VtexValue {
     let payload = cell.word & VTEX_CELL_PAYLOAD_MASK;
-    let tag = cell.word >> VTEX_CELL_TAG_SHIFT;
-    if tag == VTEX_CELL_SOLID {
-        return vtex_fill(vt, payload, lookup);
-    }
     let inside = VtexLookup(lookup.uv, lookup.width_squared, cell.q);
     var frames = vtex_frames_start();
     var at = vt.items + payload * VTEX_ITEM_WORDS;
-    if tag != VTEX_CELL_LIST {
-        at = VTEX_ITEM_BEYOND;
-    }
     for (var i = 0u; i < VTEX_ITEM_LIMIT; i += 1u) {
         if at == VTEX_ITEM_BEYOND {
             break;

@@ -96,7 +96,7 @@ pub(super) fn random_nodes(r: &mut Random, wants: Wants, depth: u32) -> Vec<Node
 fn random_node(r: &mut Random, wants: Wants, depth: u32) -> Node {
     if depth == 0 || r.below(5) < 2 {
         return Node::Shape {
-            outline: (r.below(4) > 0).then(|| index(r)),
+            outline: (r.below(8) > 0).then(|| index(r)),
             paint: index(r),
         };
     }
