@@ -35,7 +35,7 @@ const CURVES: u32 = Features::LISTS | Features::CURVES;
 const COLOR: u32 = Features::LISTS | Features::MSDF;
 
 /// Feature sets that between them reach every module of the evaluator.
-const CASES: [(&str, u32); 14] = [
+const CASES: [(&str, u32); 19] = [
     ("solid", 0),
     ("full", LISTS | Features::TRANSLUCENT),
     ("opaque", COLOR),
@@ -63,6 +63,20 @@ const CASES: [(&str, u32); 14] = [
     (
         "mask",
         COLOR | Features::IMAGES | Features::MASK | Features::MIPS | Features::OUTLINE,
+    ),
+    ("gradients-solid", Features::GRADIENTS),
+    ("gradients-opaque", CURVES | Features::GRADIENTS),
+    (
+        "gradients-translucent",
+        CURVES | Features::GRADIENTS | Features::TRANSLUCENT,
+    ),
+    (
+        "gradients-images",
+        COLOR | Features::GRADIENTS | Features::IMAGES | Features::TRANSLUCENT,
+    ),
+    (
+        "gradients-mask",
+        CURVES | Features::GRADIENTS | Features::TRANSLUCENT | Features::MASK,
     ),
     ("all", Features::ALL & !(Features::MASK | Features::RAMPS)),
 ];

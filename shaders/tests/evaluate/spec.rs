@@ -76,6 +76,7 @@ fn code_of_absent_features_is_not_in_the_text() {
         // An image's texels may be translucent.
         let translucent = lists && (has(Features::TRANSLUCENT) || images);
         let mask = has(Features::MASK);
+        let gradients = has(Features::GRADIENTS);
         let edges = msdf || curves;
         // [SFG22] eq. 2 draws by distance whatever the filter.
         let ramps = edges && (has(Features::RAMPS) || has(Features::OUTLINE));
@@ -101,7 +102,9 @@ fn code_of_absent_features_is_not_in_the_text() {
                 "vtex_color_encode",
                 translucent && !mask && (ramps || images),
             ),
-            ("vtex_color_decode", translucent && !mask),
+            ("vtex_color_decode", !mask && (translucent || gradients)),
+            ("vtex_gradient", gradients),
+            ("vtex_tint", gradients && translucent && !mask && !ramps),
             ("vtex_matrix_linear", has(Features::TEXTURE_MATRIX)),
             ("alias VtexValue = f32;", mask),
             ("vtex_address_axis", false),

@@ -26,14 +26,14 @@ fn vtex_gradient_color(vt: VtexTexture, stops: u32, count: u32, t: f32) -> vec4f
     let passed = vtex_gradient_passed(vt, stops, count, t);
     let left = max(passed, 1u) - 1u;
     let right = min(passed, count - 1u);
-    let from = vtex_word_float(vt, stops + left);
-    let to = vtex_word_float(vt, stops + right);
+    let start = vtex_word_float(vt, stops + left);
+    let end = vtex_word_float(vt, stops + right);
     let colors = stops + ((count + 3u) & 0xfffffffcu);
     let first = vtex_word_float4(vt, colors + 4u * left);
     let second = vtex_word_float4(vt, colors + 4u * right);
     // Before the first stop and behind the last both are the same one.
-    let span = select(to - from, 1.0, left == right);
-    return first + (t - from) / span * (second - first);
+    let span = select(end - start, 1.0, left == right);
+    return first + (t - start) / span * (second - first);
 }
 
 struct VtexGradientCircle {
