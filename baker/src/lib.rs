@@ -75,6 +75,8 @@ pub use svg::font_selector;
 #[cfg(test)]
 mod corpus_tests;
 #[cfg(test)]
+mod gradient_tests;
+#[cfg(test)]
 mod picture_tests;
 
 /// Bakes `svg`, the bytes of an SVG or gzipped SVG. What was approximated or left out stands in
