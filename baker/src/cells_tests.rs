@@ -14,7 +14,8 @@ use crate::{
     judge::{Coverage, Verdict},
     placed::{Placed, PlacedKind, place},
     testing::{
-        Evaluator, Random, corpus_file, corpus_root, drawing_of, random_outline, shape, solid,
+        Evaluator, Random, corpus_file, corpus_root, drawing_of, paint_at, random_outline, shape,
+        stored_at,
     },
 };
 
@@ -91,18 +92,18 @@ fn compare_lists(drawing: &Drawing, file: &VtexFile, config: &BakeConfig, points
             if let PlacedKind::Shape { paint, .. } = &item.kind
                 && item.region.contains(p)
             {
-                crate::testing::under(&mut truth, solid(paint));
+                crate::testing::under(&mut truth, paint_at(paint, uv));
             }
         }
         let mut listed = [0.0; 4];
         if let CellWord::Solid { paint } = word {
-            crate::testing::under(&mut listed, file.paints[paint as usize].color);
+            crate::testing::under(&mut listed, stored_at(file, paint, uv));
         }
         for entry in &entries {
             let covered = entry.kind == EntryKind::Full
                 || tile_contains(file, &placed, entry.data, entry.index, p);
             if covered {
-                crate::testing::under(&mut listed, file.paints[entry.index as usize].color);
+                crate::testing::under(&mut listed, stored_at(file, entry.index, uv));
             }
         }
         let wrong = truth.iter().zip(&listed).any(|(a, b)| (a - b).abs() > 1e-5);
