@@ -113,7 +113,8 @@ fn cell_mips(file: &mut VtexFile, size: [u32; 2]) -> Image {
     image
 }
 
-fn picture(file: &VtexFile, size: [u32; 2]) -> LinearImage {
+/// What the cells show, in linear light.
+pub(crate) fn picture(file: &VtexFile, size: [u32; 2]) -> LinearImage {
     let effort = Effort::of(file, size);
     // The canvas as it is drawn, wherever on a surface the file then puts it.
     let options = PackOptions {

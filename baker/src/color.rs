@@ -2,7 +2,19 @@
 
 use std::sync::LazyLock;
 
+use vtex_format::MaskKind;
+
 pub(crate) use vtex_shaders::cpu::color::{decode_channel as decode, encode_channel as encode};
+
+/// What a mask of one colour, straight alpha and sRGB-encoded, leaves of what it fades.
+pub(crate) fn mask_weight(kind: MaskKind, [r, g, b, a]: [f32; 4]) -> f32 {
+    let light = |[r, g, b]: [f32; 3]| 0.2125 * r + 0.7154 * g + 0.0721 * b;
+    match kind {
+        MaskKind::Alpha => a,
+        MaskKind::Luminance => light([r, g, b]) * a,
+        MaskKind::LinearLuminance => light([r, g, b].map(decode)) * a,
+    }
+}
 
 /// A value in \[0, 1\] as the nearest of 256 codes; NaN gives 0.
 #[expect(

@@ -50,6 +50,14 @@ pub(crate) struct Cover {
 }
 
 impl Cover {
+    /// Of what covers the whole canvas.
+    fn everywhere(lattice: &Lattice) -> Self {
+        let count = u32::try_from(lattice.cell_count()).unwrap_or(u32::MAX);
+        let mut cover = Self::default();
+        cover.cells.full = (0..count).collect();
+        cover
+    }
+
     /// Its outline in `cell`: strips that add up to it, most often one. Empty unless it is curves.
     pub(crate) fn curves_in(&self, cell: u32) -> &[CellCurves] {
         let Ok(index) = self.cells.listed.binary_search(&cell) else {
@@ -112,7 +120,7 @@ pub(crate) fn cover(
     let cutter = curve_lattice(placed, lattice, scales, max_zoom)
         .map(|curve_lattice| Cutter::new(lattice, curve_lattice, max_zoom));
     let cover_one = |placed: &Placed| {
-        if !placed.is_shape() {
+        if placed.kind == PlacedKind::Patch {
             return Ok(Cover::default());
         }
         if let (true, Some(cutter)) = (placed.is_curves(), &cutter) {
@@ -142,6 +150,10 @@ pub(crate) fn patch_failures(
     let mut resolved = Vec::with_capacity(covers.len());
     for (cover, (item, placed)) in covers.into_iter().zip(items) {
         resolved.push(cover.unwrap_or_else(|_| {
+            if matches!(item, Item::Clip(_)) {
+                drawing.warnings.push(clip_warning());
+                return Cover::everywhere(lattice);
+            }
             // A shape of which nothing shows is listed nowhere.
             if let Some(patch) = patch::of_shape(item, settings, share) {
                 drawing.warnings.push(failure_warning(&patch));
@@ -152,6 +164,15 @@ pub(crate) fn patch_failures(
         }));
     }
     resolved
+}
+
+fn clip_warning() -> Warning {
+    Warning {
+        code: WarningCode::PathFallback,
+        feature: "clipPath".into(),
+        element: String::new(),
+        message: "an outline to clip to is too complex for curves; nothing is clipped to it".into(),
+    }
 }
 
 fn failure_warning(patch: &Patch) -> Warning {
@@ -238,6 +259,10 @@ impl Cutter {
 impl Placed {
     /// Whether it is to be curve records.
     pub(crate) fn is_curves(&self) -> bool {
-        matches!(self.kind, PlacedKind::Shape { verdict, .. } if verdict.coverage == Coverage::Curves)
+        match &self.kind {
+            PlacedKind::Shape { verdict, .. } => verdict.coverage == Coverage::Curves,
+            PlacedKind::Clip => true,
+            PlacedKind::Patch => false,
+        }
     }
 }

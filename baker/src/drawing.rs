@@ -5,6 +5,7 @@ use kurbo::{BezPath, Rect};
 use vtex_format::{Image, Warning};
 
 pub(crate) use crate::paint::Paint;
+use crate::tree::Tree;
 
 /// A whole drawing, back to front.
 #[derive(Debug)]
@@ -13,17 +14,43 @@ pub(crate) struct Drawing {
     pub(crate) canvas_size: [f64; 2],
     /// Back to front.
     pub(crate) items: Vec<Item>,
+    /// How they belong together.
+    pub(crate) tree: Tree,
     /// What was approximated or left out.
     pub(crate) warnings: Vec<Warning>,
 }
 
-/// One thing painted.
+#[cfg(test)]
+impl Drawing {
+    /// Items without groups.
+    pub(crate) fn flat(canvas_size: [f64; 2], items: Vec<Item>) -> Self {
+        Self {
+            canvas_size,
+            tree: Tree::flat(items.len()),
+            items,
+            warnings: Vec::new(),
+        }
+    }
+}
+
+/// One thing painted, or what limits others.
 #[derive(Debug)]
 pub(crate) enum Item {
     /// Geometry with a paint.
     Shape(Shape),
     /// A subtree that is not yet geometry.
     Patch(Patch),
+    /// Shows nothing: where a group may show.
+    Clip(ClipOutline),
+}
+
+/// An outline that a group is clipped to.
+#[derive(Debug)]
+pub(crate) struct ClipOutline {
+    /// Closed contours.
+    pub(crate) outline: BezPath,
+    /// Inside test.
+    pub(crate) rule: FillRule,
 }
 
 /// A filled region with one paint. Strokes arrive here already expanded.

@@ -9,21 +9,22 @@ use vtex_shaders::{SpecParts, shader_blob, spec_key_from_parts};
 use crate::{
     canvas,
     cells::{CellInput, CellLists, build_cells},
-    config::{BakeConfig, Stage},
+    config::{BakeConfig, Mode, Stage},
     cover::{Cover, cover, curve_lattice, flatness_units, patch_failures},
     curves::CurveError,
-    drawing::{Drawing, Paint},
+    drawing::{Drawing, Item, Paint},
     error::BakeError,
     grid::Lattice,
     judge::{Judgement, Verdict, all_curves, judge},
     msdf::{TileShape, TileSpec, render_tile},
     paint_table::PaintTable,
-    patch::PatchSettings,
+    patch::{PatchSettings, whole_canvas},
     placed::{Placed, PlacedKind, place},
     records,
     scales::Scales,
     sources::sources,
     subset::{Packing, merge_all, pack},
+    tree::Tree,
 };
 
 /// Bytes of MSDF tiles in a file; beyond, a smaller lattice serves better and most GPUs refuse
@@ -60,6 +61,7 @@ pub(crate) fn assemble(
     let packing = pack_items(&placed, &lattice, &scales, config.merge);
 
     observer(Stage::Cells);
+    let tree = std::mem::take(&mut drawing.tree);
     let mut paints = PaintTable::default();
     let first_patch = u32::from(mip0.is_some());
     let paint_or_image = number_paints(&placed, first_patch, &mut paints);
@@ -70,6 +72,7 @@ pub(crate) fn assemble(
         paint_or_image: &paint_or_image,
         packing: &packing,
         layer_of_rank: &layers.of_rank,
+        tree: &tree,
     };
     let lists = build_cells(&input, &lattice, &mut paints)?;
 
@@ -129,6 +132,37 @@ pub(crate) fn assemble(
     Ok(file)
 }
 
+/// The drawing as one raster of what its shapes show.
+pub(crate) fn rastered(
+    drawing: Drawing,
+    config: &BakeConfig,
+    observer: &(dyn Fn(Stage) + Sync),
+) -> Result<Drawing, BakeError> {
+    if drawing.items.is_empty() {
+        return Ok(drawing);
+    }
+    let canvas_size = drawing.canvas_size;
+    let settings = PatchSettings::new(canvas_size, config);
+    let plain = BakeConfig {
+        mode: Mode::Curves,
+        mask: false,
+        outline_texels: None,
+        merge: false,
+        ..config.clone()
+    };
+    let mut file = assemble(drawing, None, &plain, [0; 32], observer)?;
+    let (patch, coarse) = whole_canvas(settings, |size| canvas::picture(&file, size));
+    let mut warnings = file.provenance.take().map(|told| told.warnings);
+    let mut warnings = warnings.take().unwrap_or_default();
+    warnings.extend(coarse);
+    Ok(Drawing {
+        canvas_size,
+        items: vec![Item::Patch(patch)],
+        tree: Tree::flat(1),
+        warnings,
+    })
+}
+
 /// The outlines that a reader makes the curve records from, where it can.
 fn stored_outlines(
     input: &CellInput<'_>,
@@ -144,7 +178,7 @@ fn stored_outlines(
 
 /// About how many pieces the cells of a lattice cut outlines into, which are placed on another.
 fn pieces(placed: &[Placed], lattice: &Lattice) -> f64 {
-    let shapes = placed.iter().filter(|item| item.is_shape());
+    let shapes = placed.iter().filter(|item| item.kind != PlacedKind::Patch);
     let segments = shapes.flat_map(|item| item.outline.segments());
     let reach: f64 = segments
         .map(|segment| {
@@ -266,6 +300,7 @@ fn number_paints(placed: &[Placed], first_patch: u32, paints: &mut PaintTable) -
         .map(|item| match &item.kind {
             PlacedKind::Shape { paint, .. } => paints.intern(paint),
             PlacedKind::Patch => patches.next().unwrap_or(u32::MAX),
+            PlacedKind::Clip => 0,
         })
         .collect()
 }

@@ -119,6 +119,7 @@ fn measure_against_fdsm() {
     for index in (0..300).step_by(25) {
         let mut drawing = drawing_of(&svg, &config);
         drawing.items = vec![drawing.items.swap_remove(index)];
+        drawing.tree = crate::tree::Tree::flat(1);
         let placed = {
             let forced = crate::judge::Verdict::forced(crate::judge::Coverage::Msdf);
             crate::placed::place(&drawing, &lattice, &[forced])

@@ -22,8 +22,6 @@
 
 mod canvas;
 mod cells;
-#[cfg(test)]
-mod cells_tests;
 mod classify;
 mod color;
 mod config;
@@ -31,6 +29,7 @@ mod cover;
 #[cfg(test)]
 mod curve_cells_tests;
 mod curves;
+mod detail;
 mod drawing;
 mod encode;
 #[cfg(test)]
@@ -59,9 +58,10 @@ mod subset;
 mod svg;
 #[cfg(test)]
 mod testing;
+mod tree;
 mod warning;
 
-use drawing::{Drawing, Item};
+use drawing::Drawing;
 use patch::PatchSettings;
 use svg::WalkOptions;
 use vtex_format::{VtexFile, WarningCode};
@@ -100,7 +100,10 @@ pub fn bake_observed(
     observer: &(dyn Fn(Stage) + Sync),
 ) -> Result<VtexFile, BakeError> {
     config.check()?;
-    let drawing = draw(svg, config, resources, observer)?;
+    let mut drawing = draw(svg, config, resources, observer)?;
+    if config.mode == Mode::Raster {
+        drawing = encode::rastered(drawing, config, observer)?;
+    }
     let mip0 = canvas::canvas_texels(drawing.canvas_size, config.mip0_size);
     let source_hash = *blake3::hash(svg).as_bytes();
     encode::assemble(drawing, Some(mip0), config, source_hash, observer)
@@ -125,7 +128,7 @@ fn draw(
     };
     let plan = svg::plan(&tree, options, &warnings)?;
     let settings = PatchSettings::new(plan.canvas_size, config);
-    let mut items = patch::resolve(plan, settings, &warnings);
+    let (items, tree) = patch::resolve(plan, settings, &warnings);
     if items.is_empty() {
         warnings.push(
             WarningCode::EmptyDrawing,
@@ -134,13 +137,10 @@ fn draw(
             "the drawing shows nothing",
         );
     }
-    if config.mode == Mode::Raster {
-        let patch = patch::whole_canvas(&items, settings, &warnings);
-        items = patch.map(Item::Patch).into_iter().collect();
-    }
     Ok(Drawing {
         canvas_size: settings.canvas_size,
         items,
+        tree,
         warnings: warnings.into_list(),
     })
 }

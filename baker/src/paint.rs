@@ -26,6 +26,20 @@ impl Paint {
         }
     }
 
+    /// With every colour changed, straight alpha, sRGB-encoded.
+    pub(crate) fn mapped(self, change: impl Fn([f32; 4]) -> [f32; 4]) -> Self {
+        match self {
+            Self::Solid(color) => Self::Solid(change(color)),
+            Self::Gradient(gradient) => {
+                let mut gradient = Arc::unwrap_or_clone(gradient);
+                for stop in &mut gradient.stops {
+                    stop.color = change(stop.color);
+                }
+                Self::Gradient(Arc::new(gradient))
+            }
+        }
+    }
+
     /// Whether anything of it can be seen.
     pub(crate) fn shows(&self) -> bool {
         match self {

@@ -62,12 +62,19 @@ impl PaintTable {
         Some(self.intern_solid(over(front, back)))
     }
 
+    /// The paint with its alpha multiplied; `None` where it is no single colour.
+    pub(crate) fn intern_faded(&mut self, index: u32, opacity: f32) -> Option<u32> {
+        let [r, g, b, a] = self.color(index)?;
+        Some(self.intern_solid([r, g, b, a * opacity]))
+    }
+
     /// Whether nothing shows behind.
     pub(crate) fn is_opaque(&self, index: u32) -> bool {
         self.paints[index as usize].is_opaque()
     }
 
-    fn color(&self, index: u32) -> Option<[f32; 4]> {
+    /// The colour of a paint that has one, straight alpha, sRGB-encoded.
+    pub(crate) fn color(&self, index: u32) -> Option<[f32; 4]> {
         let paint = &self.paints[index as usize];
         (!paint.is_gradient()).then_some(paint.color)
     }

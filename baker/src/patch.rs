@@ -5,14 +5,16 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use kurbo::Rect;
 use rayon::prelude::*;
 use tiny_skia::{Pixmap, Transform};
-use vtex_format::WarningCode;
+use vtex_format::{Warning, WarningCode};
 
 use crate::color;
 use crate::config::BakeConfig;
+use crate::detail;
 use crate::drawing::{Item, Patch};
 use crate::mips::{self, LinearImage};
 use crate::raster::{self, View};
 use crate::svg::{Cost, Plan, Step, Subtree};
+use crate::tree::Tree;
 use crate::warning::Warnings;
 
 /// Patch texels for each texel of mip 0, when there is room. More gives crisper edges until curve
@@ -46,74 +48,67 @@ pub(crate) struct PatchSettings {
 }
 
 /// Paints every subtree of the plan; the result is in painter's order.
-pub(crate) fn resolve(plan: Plan<'_>, settings: PatchSettings, warnings: &Warnings) -> Vec<Item> {
+pub(crate) fn resolve(
+    plan: Plan<'_>,
+    settings: PatchSettings,
+    warnings: &Warnings,
+) -> (Vec<Item>, Tree) {
     let density = settings.common_density(&plan);
-    let painted: Vec<Painted<'_>> = plan
+    let painted: Vec<Outcome> = plan
         .steps
         .into_par_iter()
         .map(|step| match step {
-            Step::Shape(shape) => Painted::Item(Item::Shape(shape)),
-            Step::Raster(subtree) if subtree.blends => Painted::NeedsBackdrop(subtree),
-            Step::Raster(subtree) => Painted::Alone(settings.paint_alone(&subtree, density)),
+            Step::Shape(shape) => Outcome::Item(Item::Shape(shape)),
+            Step::Clip(clip) => Outcome::Item(Item::Clip(clip)),
+            Step::Raster(subtree) => settings.paint_alone(&subtree, density),
         })
         .collect();
     let mut items = Vec::with_capacity(painted.len());
+    let mut place = Vec::with_capacity(painted.len());
     let mut coarse = false;
-    for step in painted {
-        let patch = match step {
-            Painted::Item(item) => {
-                items.push(item);
-                continue;
-            }
-            Painted::Alone(outcome) => outcome,
-            Painted::NeedsBackdrop(subtree) => {
-                settings.paint_on_backdrop(&subtree, density, &mut items)
-            }
-        };
-        match patch {
+    for outcome in painted {
+        let next = u32::try_from(items.len()).ok();
+        let item = match outcome {
+            Outcome::Item(item) => Some(item),
             Outcome::Patch(patch, density) => {
                 coarse |= density < settings.wanted_density();
                 warn_patch(&patch, warnings);
-                items.push(Item::Patch(patch));
+                Some(Item::Patch(patch))
             }
-            Outcome::Nothing => {}
+            Outcome::Nothing => None,
             Outcome::Failed(feature, element) => {
                 let message = format!("{feature} could not be painted and is left out");
                 warnings.push(WarningCode::RasterPatch, feature, &element, message);
+                None
             }
-        }
+        };
+        place.push(item.as_ref().and(next));
+        items.extend(item);
     }
     if coarse {
-        warn_coarse(warnings);
+        warnings.add(coarse_warning());
     }
-    items
+    (items, plan.tree.renumbered(&place))
 }
 
-/// The whole drawing as one patch.
+/// The whole canvas as one patch, of which `paint` makes a picture of a size.
 pub(crate) fn whole_canvas(
-    items: &[Item],
     settings: PatchSettings,
-    warnings: &Warnings,
-) -> Option<Patch> {
-    if items.is_empty() {
-        return None;
-    }
-    let canvas = Rect::new(0.0, 0.0, settings.canvas_size[0], settings.canvas_size[1]);
+    paint: impl FnOnce([u32; 2]) -> LinearImage,
+) -> (Patch, Option<Warning>) {
+    let [width, height] = settings.canvas_size;
     let density = settings
         .finest_density()
         .min(MAX_PATCH_SIDE / f64::from(settings.mip0_size));
-    if density < settings.wanted_density() {
-        warn_coarse(warnings);
-    }
-    let lattice = settings.lattice(density);
-    let view = View::canvas(settings.canvas_size, lattice);
-    let image = mips::chain(raster::linear_picture(items, view), [0.0, 0.0, 1.0, 1.0]);
-    Some(Patch {
-        rect: canvas,
-        image,
+    let picture = paint(settings.lattice(density));
+    let patch = Patch {
+        rect: Rect::new(0.0, 0.0, width, height),
+        image: mips::chain(picture, [0.0, 0.0, 1.0, 1.0]),
         feature: "raster".to_owned(),
         element: String::new(),
-    })
+    };
+    let coarse = density < settings.wanted_density();
+    (patch, coarse.then(coarse_warning))
 }
 
 /// One shape as a patch, within its `share` of what patches may take; `None` when nothing of it
@@ -143,13 +138,9 @@ pub(crate) fn of_shape(item: &Item, settings: PatchSettings, share: f64) -> Opti
     ))
 }
 
-enum Painted<'a> {
-    Item(Item),
-    Alone(Outcome),
-    NeedsBackdrop(Subtree<'a>),
-}
-
 enum Outcome {
+    /// No subtree.
+    Item(Item),
     /// A patch and its density.
     Patch(Patch, f64),
     /// Nothing of it shows.
@@ -172,13 +163,17 @@ fn warn_patch(patch: &Patch, warnings: &Warnings) {
     );
 }
 
-fn warn_coarse(warnings: &Warnings) {
-    let message = format!(
-        "raster patches have fewer than {WANTED_DENSITY} texels for each of mip 0, \
-         to keep within {} MiB",
-        MAX_PATCH_TEXELS * 16.0 / 3.0 / 1_048_576.0
-    );
-    warnings.push(WarningCode::Reduced, "raster", "", message);
+fn coarse_warning() -> Warning {
+    Warning {
+        code: WarningCode::Reduced,
+        feature: "raster".into(),
+        element: String::new(),
+        message: format!(
+            "raster patches have fewer than {WANTED_DENSITY} texels for each of mip 0, \
+             to keep within {} MiB",
+            MAX_PATCH_TEXELS * 16.0 / 3.0 / 1_048_576.0
+        ),
+    }
 }
 
 /// A rectangle of lattice texels: left, top, right, bottom.
@@ -218,7 +213,7 @@ impl PatchSettings {
             .iter()
             .filter_map(|step| match step {
                 Step::Raster(s) => Some((s.bounds.intersect(self.canvas()), self.density_limit(s))),
-                Step::Shape(_) => None,
+                Step::Shape(_) | Step::Clip(_) => None,
             })
             .collect();
         let mut density = self.finest_density();
@@ -326,56 +321,6 @@ impl PatchSettings {
         }
     }
 
-    /// The picture so far with the subtree blended in. Where that is opaque it can simply lie on
-    /// top; otherwise it would show the backdrop twice, so it takes the place of everything so far.
-    fn paint_on_backdrop(
-        self,
-        subtree: &Subtree<'_>,
-        density: f64,
-        items: &mut Vec<Item>,
-    ) -> Outcome {
-        let regional = density.min(self.density_limit(subtree));
-        let lattice = self.lattice(regional);
-        let window = self.window(subtree.bounds, lattice);
-        let view = self.view(window, lattice);
-        let Some(mut pixmap) = raster::picture(items, view) else {
-            return Outcome::Failed(subtree.feature, subtree.element.clone());
-        };
-        if pixmap
-            .data()
-            .iter()
-            .skip(3)
-            .step_by(4)
-            .all(|&alpha| alpha == u8::MAX)
-        {
-            if paint_node(subtree, view, &mut pixmap).is_none() {
-                return Outcome::Failed(subtree.feature, subtree.element.clone());
-            }
-            clear_border(&mut pixmap, window, lattice);
-            return Outcome::Patch(
-                self.patch(&pixmap, window, window, lattice, subtree.names()),
-                regional,
-            );
-        }
-        let whole = regional.min(self.density_for_side(self.canvas()));
-        let lattice = self.lattice(whole);
-        let window = [0, 0, lattice[0], lattice[1]];
-        let view = self.view(window, lattice);
-        let painted = raster::picture(items, view)
-            .and_then(|mut pixmap| paint_node(subtree, view, &mut pixmap).map(|()| pixmap));
-        let Some(pixmap) = painted else {
-            return Outcome::Failed(subtree.feature, subtree.element.clone());
-        };
-        items.clear();
-        match shown_part(&pixmap, window, lattice) {
-            Some(shown) => Outcome::Patch(
-                self.patch(&pixmap, window, shown, lattice, subtree.names()),
-                whole,
-            ),
-            None => Outcome::Nothing,
-        }
-    }
-
     /// The part `shown` of a painted window as a patch.
     fn patch(
         self,
@@ -385,7 +330,7 @@ impl PatchSettings {
         lattice: [u32; 2],
         [feature, element]: [&str; 2],
     ) -> Patch {
-        let level0 = cropped(pixmap, window, shown);
+        let level0 = detail::fitted(cropped(pixmap, window, shown));
         let uv = |texel: u32, axis: usize| f64::from(texel) / f64::from(lattice[axis]);
         let [left, top, right, bottom] = [
             uv(shown[0], 0),

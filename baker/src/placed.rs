@@ -38,6 +38,8 @@ pub(crate) enum PlacedKind {
     },
     /// A raster image in a rectangle.
     Patch,
+    /// An outline that groups are clipped to.
+    Clip,
 }
 
 impl Placed {
@@ -51,7 +53,7 @@ impl Placed {
         }
     }
 
-    /// Whether it is geometry.
+    /// Whether it is geometry that shows.
     pub(crate) fn is_shape(&self) -> bool {
         matches!(self.kind, PlacedKind::Shape { .. })
     }
@@ -108,6 +110,10 @@ pub(crate) fn place_item(
             };
             let outline = lattice.lattice_from_canvas * prepared.outline;
             Placed::new(outline, prepared.rule, kind)
+        }
+        Item::Clip(clip) => {
+            let outline = lattice.lattice_from_canvas * clean(&clip.outline, canvas_longer);
+            Placed::new(outline, clip.rule, PlacedKind::Clip)
         }
         Item::Patch(patch) => {
             let outline = lattice.lattice_from_canvas * patch.rect.to_path(0.1);

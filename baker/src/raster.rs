@@ -1,10 +1,6 @@
-//! Pictures of our own items by tiny-skia: for backdrops and for `Mode::Raster`.
-//!
-//! Painting the items rather than the SVG makes them agree with the shapes by construction, colour
-//! replacements included.
+//! Pictures of single items by tiny-skia: of shapes that are too much for curves.
 
 use kurbo::{Affine, BezPath, PathEl, Point, Rect};
-use rayon::prelude::*;
 use tiny_skia::{
     Color, FillRule as SkiaFillRule, GradientStop as SkiaStop, LinearGradient, Paint, Path,
     PathBuilder, Pixmap, PixmapMut, PixmapPaint, Point as SkiaPoint, RadialGradient, Shader,
@@ -12,13 +8,9 @@ use tiny_skia::{
 };
 use vtex_format::{Gradient, GradientShape, GradientStop, Spread};
 
-use crate::color;
 use crate::drawing::{self, FillRule, Item, Patch, Shape};
-use crate::mips::LinearImage;
 use crate::resample;
 
-/// Rows painted by one task. A constant, so that the picture does not depend on thread counts.
-const BAND_ROWS: u32 = 256;
 /// A window on the canvas, in texels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct View {
@@ -61,42 +53,6 @@ impl View {
         let [x, y] = self.origin;
         Affine::translate((-x, -y)) * Affine::scale_non_uniform(self.canvas[0], self.canvas[1])
     }
-
-    /// The band of `rows` rows with an index.
-    fn band(self, index: u32, rows: u32) -> Self {
-        let top = index * rows;
-        Self {
-            size: [self.size[0], rows.min(self.size[1] - top)],
-            origin: [self.origin[0], self.origin[1] + f64::from(top)],
-            ..self
-        }
-    }
-}
-
-/// The items in linear light.
-pub(crate) fn linear_picture(items: &[Item], view: View) -> LinearImage {
-    let bands = view.size[1].div_ceil(BAND_ROWS);
-    let texels = (0..bands)
-        .into_par_iter()
-        .flat_map_iter(|index| {
-            let band = view.band(index, BAND_ROWS);
-            picture(items, band)
-                .map(|pixmap| linear_texels(&pixmap))
-                .unwrap_or_default()
-        })
-        .collect();
-    LinearImage {
-        size: view.size,
-        texels,
-    }
-}
-
-fn linear_texels(pixmap: &Pixmap) -> Vec<[f32; 4]> {
-    let texels = pixmap.data().as_chunks::<4>().0;
-    texels
-        .iter()
-        .map(|&texel| color::linear_from_skia(texel))
-        .collect()
 }
 
 /// The items on a transparent ground; `None` when the window cannot be allocated.
@@ -114,6 +70,7 @@ pub(crate) fn paint(items: &[Item], view: View, pixmap: &mut PixmapMut<'_>) {
         match item {
             Item::Shape(shape) => paint_shape(shape, view, window, pixmap),
             Item::Patch(patch) => paint_patch(patch, texel_from_canvas, window, pixmap),
+            Item::Clip(_) => {}
         }
     }
 }

@@ -46,7 +46,7 @@ pub(crate) fn meta(
     }
 }
 
-/// One record an item.
+/// One record an item that is painted.
 pub(crate) fn shape_records(input: &CellInput<'_>, lattice: &Lattice) -> Vec<ShapeRecord> {
     let record = |((item, &rank), &paint_or_image): ((&Placed, &u32), &u32)| {
         let segments = item.outline.segments().count();
@@ -57,8 +57,9 @@ pub(crate) fn shape_records(input: &CellInput<'_>, lattice: &Lattice) -> Vec<Sha
                 Coverage::Curves => (COVERAGE_CURVES, layer, paint_or_image),
             },
             PlacedKind::Patch => (COVERAGE_IMAGE, paint_or_image, 0),
+            PlacedKind::Clip => return None,
         };
-        ShapeRecord {
+        Some(ShapeRecord {
             coverage,
             fill_rule: match item.rule {
                 FillRule::NonZero => FILL_NON_ZERO,
@@ -73,10 +74,10 @@ pub(crate) fn shape_records(input: &CellInput<'_>, lattice: &Lattice) -> Vec<Sha
             },
             segment_count: u32::try_from(segments).unwrap_or(u32::MAX),
             reserved: 0,
-        }
+        })
     };
     let items = input.placed.iter().zip(&input.packing.ranks);
-    items.zip(input.paint_or_image).map(record).collect()
+    items.zip(input.paint_or_image).filter_map(record).collect()
 }
 
 fn bounds_uv(area: Rect, lattice: &Lattice) -> [f32; 4] {
@@ -133,7 +134,7 @@ pub(crate) fn warnings(
 pub(crate) fn images(drawing: Drawing, mips: bool) -> Vec<Image> {
     let patches = drawing.items.into_iter().filter_map(|item| match item {
         Item::Patch(patch) => Some(patch.image),
-        Item::Shape(_) => None,
+        Item::Shape(_) | Item::Clip(_) => None,
     });
     let mips = mips.then(canvas::no_mips);
     mips.into_iter().chain(patches).collect()
@@ -151,12 +152,13 @@ pub(crate) fn provenance(
         source_hash,
         tool: concat!("vtex-baker ", env!("CARGO_PKG_VERSION")).into(),
         options: options(config),
-        shapes: drawing.items.iter().zip(placed).map(report).collect(),
+        shapes: drawing.items.iter().zip(placed).filter_map(report).collect(),
         warnings,
     }
 }
 
-fn report((item, placed): (&Item, &Placed)) -> ShapeReport {
+/// `None` of what is not painted.
+fn report((item, placed): (&Item, &Placed)) -> Option<ShapeReport> {
     let (element, source) = match item {
         Item::Shape(shape) => {
             let source = match shape.source {
@@ -166,6 +168,7 @@ fn report((item, placed): (&Item, &Placed)) -> ShapeReport {
             (&shape.element, source)
         }
         Item::Patch(patch) => (&patch.element, patch.feature.as_str()),
+        Item::Clip(_) => return None,
     };
     let report = ShapeReport {
         element: element.clone(),
@@ -173,7 +176,7 @@ fn report((item, placed): (&Item, &Placed)) -> ShapeReport {
         ..ShapeReport::default()
     };
     match &placed.kind {
-        PlacedKind::Shape { note, verdict, .. } => ShapeReport {
+        PlacedKind::Shape { note, verdict, .. } => Some(ShapeReport {
             preparation: preparation(*note),
             finding: verdict.finding,
             size_texels: match verdict.coverage {
@@ -182,14 +185,15 @@ fn report((item, placed): (&Item, &Placed)) -> ShapeReport {
             },
             field_error: verdict.error,
             ..report
-        },
-        PlacedKind::Patch => ShapeReport {
+        }),
+        PlacedKind::Patch => Some(ShapeReport {
             finding: match item {
                 Item::Patch(patch) if patch.feature == SHAPE_FEATURE => Finding::TooManySegments,
                 _ => Finding::None,
             },
             ..report
-        },
+        }),
+        PlacedKind::Clip => None,
     }
 }
 

@@ -9,7 +9,7 @@ use kurbo::{Line, Point, Rect};
 
 use crate::{
     geometry::{clip_line, flatten, floor_index, line_line_distance},
-    placed::Placed,
+    placed::{Placed, PlacedKind},
 };
 
 /// How far flattening may move an outline, in steps; the reach grows by both outlines' share.
@@ -88,6 +88,12 @@ impl<'a> Packer<'a> {
     }
 
     fn add(&mut self, index: usize) {
+        // What is not painted is in nobody's way.
+        if self.items[index].kind == PlacedKind::Clip {
+            self.run_points.push(Vec::new());
+            self.ranks.push(0);
+            return;
+        }
         let side = self.buckets.side;
         let boundary = boundary(&self.items[index], self.window, side);
         self.run_points.push(boundary.run_points);
@@ -359,7 +365,8 @@ mod tests {
         let drawing = drawing_of(svg, &config);
         let lattice = Lattice::new(drawing.canvas_size, config.msdf_size);
         let forced = crate::judge::Verdict::forced(crate::judge::Coverage::Msdf);
-        let items = place(&drawing, &lattice, &vec![forced; drawing.items.len()]);
+        let mut items = place(&drawing, &lattice, &vec![forced; drawing.items.len()]);
+        items.retain(|item| item.kind != PlacedKind::Clip);
         let reach = f64::from(config.distance_range_texels);
         check(&items, &pack(&items, everywhere, reach), reach);
     }

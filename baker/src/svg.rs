@@ -1,17 +1,24 @@
 //! SVG to a [`Plan`]: what is geometry already, and what resvg has to paint.
 
+mod clip;
 mod cost;
 mod entities;
+mod fold;
 mod fonts;
 mod gradient;
+mod group;
 mod images;
 mod path;
+mod pattern;
+mod recolor;
 mod source;
+mod style;
 mod walk;
 
 use kurbo::{Affine, Rect};
 
-use crate::drawing::Shape;
+use crate::drawing::{ClipOutline, Shape};
+use crate::tree::Tree;
 
 pub(crate) use cost::Cost;
 pub use fonts::font_selector;
@@ -25,6 +32,8 @@ pub(crate) struct Plan<'a> {
     pub(crate) canvas_size: [f64; 2],
     /// Back to front.
     pub(crate) steps: Vec<Step<'a>>,
+    /// How they belong together; items are steps.
+    pub(crate) tree: Tree,
 }
 
 /// One thing to paint.
@@ -32,6 +41,8 @@ pub(crate) struct Plan<'a> {
 pub(crate) enum Step<'a> {
     /// Geometry with a paint.
     Shape(Shape),
+    /// Where a group may show.
+    Clip(ClipOutline),
     /// A subtree for resvg.
     Raster(Subtree<'a>),
 }
@@ -45,8 +56,6 @@ pub(crate) struct Subtree<'a> {
     pub(crate) canvas_from_parent: Affine,
     /// What it may touch, in canvas space; not empty, may reach outside the canvas.
     pub(crate) bounds: Rect,
-    /// Whether the result depends on what lies behind it.
-    pub(crate) blends: bool,
     /// Why it is not geometry.
     pub(crate) feature: &'static str,
     /// `id` of the element or its nearest named ancestor, may be empty.

@@ -19,12 +19,16 @@ impl Warnings {
         element: &str,
         message: impl Into<String>,
     ) {
-        let warning = Warning {
+        self.add(Warning {
             code,
             feature: feature.to_owned(),
             element: element.to_owned(),
             message: message.into(),
-        };
+        });
+    }
+
+    /// Adds one warning.
+    pub(crate) fn add(&self, warning: Warning) {
         self.0
             .lock()
             .unwrap_or_else(PoisonError::into_inner)

@@ -65,6 +65,7 @@
 mod cell;
 mod check;
 mod codec;
+mod control;
 mod curve;
 pub mod cut;
 mod directory;
@@ -83,6 +84,7 @@ mod meta;
 mod paint;
 mod prov;
 mod read;
+mod scope;
 mod section;
 mod shader;
 mod shape;
@@ -96,6 +98,7 @@ pub use cell::{
     CELL_TAG_SHIFT, CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL, MAX_INDEXED, MAX_ITEMS,
     MAX_LIST_ITEMS,
 };
+pub use control::{BlendMode, MaskKind, OPEN_ISOLATED};
 pub use curve::{
     CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CurveHeader, CurveLattice,
     MAX_CURVE_SEGMENTS, MAX_CURVE_STEPS,
@@ -115,6 +118,9 @@ pub use meta::{
 pub use paint::{PAINT_LINEAR, PAINT_RADIAL, PAINT_SOLID, PaintRecord};
 pub use prov::{FieldError, Finding, Preparation, Provenance, ShapeReport, Warning, WarningCode};
 pub use read::validate;
+pub use scope::{
+    Block, ListFault, ListFaultKind, MAX_FRAMES, MaskBlock, jump_target, list_blocks, list_frames,
+};
 pub use section::{Codec, SectionInfo};
 pub use shader::ShaderBlob;
 pub use shape::{

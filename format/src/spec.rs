@@ -3,7 +3,10 @@
 use bytemuck::{Pod, Zeroable};
 
 use crate::check::list_lengths;
-use crate::{CellWord, Entry, EntryKind, PaintRecord, SamplerSettings, VtexFile};
+use crate::{
+    BlendMode, CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL, PaintRecord, SamplerSettings,
+    VtexFile, list_frames,
+};
 
 /// Version of the packed words and bindings shared by shaders and loaders. A file whose shader
 /// blob carries another ABI is evaluated with the runtime's own text.
@@ -25,8 +28,10 @@ pub struct SpecKey {
     pub texels_per_cell: u32,
     /// Bound of the entry loop: the longest list in the file.
     pub max_entries: u32,
+    /// Frames of the deepest list in the file, as [`list_frames`](crate::list_frames) counts them.
+    pub frames: u32,
     /// Zero.
-    pub reserved: [u32; 2],
+    pub reserved: u32,
 }
 
 /// Bits of [`SpecKey::features`]. Code for an absent feature is not in the shader.
@@ -57,8 +62,14 @@ impl Features {
     pub const RAMPS: u32 = 1 << 9;
     /// Some cell or entry names a gradient.
     pub const GRADIENTS: u32 = 1 << 10;
+    /// Some entry is a test: what shows is clipped.
+    pub const CLIPS: u32 = 1 << 11;
+    /// Some entries are groups.
+    pub const GROUPS: u32 = 1 << 12;
+    /// Some group blends other than normally.
+    pub const BLENDS: u32 = 1 << 13;
     /// All bits this version knows.
-    pub const ALL: u32 = (1 << 11) - 1;
+    pub const ALL: u32 = (1 << 14) - 1;
 }
 
 /// The parts of a file that decide what its shader contains.
@@ -145,6 +156,11 @@ impl<'a> SpecParts<'a> {
             EntryKind::Full => 0,
             EntryKind::Msdf => Features::MSDF,
             EntryKind::Curves => Features::CURVES,
+            EntryKind::Test => return Features::CLIPS | Features::CURVES,
+            EntryKind::Close if entry.index != BlendMode::Normal as u32 => {
+                return Features::GROUPS | Features::BLENDS;
+            }
+            EntryKind::Open | EntryKind::Close | EntryKind::Mask => return Features::GROUPS,
         };
         // Eq. 2 draws around outlines only, not around cells.
         let outline = self.sampler.outline.filter(|_| kind != 0);
@@ -171,6 +187,43 @@ impl<'a> SpecParts<'a> {
             .filter_map(|offset_words| lengths.get(offset_words as usize / 2));
         lists.copied().flatten().max().unwrap_or(0)
     }
+
+    /// Frames of the deepest list that a cell names; lists that break a rule are passed over.
+    fn deepest_list(&self) -> u32 {
+        if self.features() & (Features::CLIPS | Features::GROUPS) == 0 {
+            return 0;
+        }
+        let mut seen = vec![false; self.entries.len() / 2];
+        let lists = self.lists().filter_map(|offset_words| {
+            let place = offset_words as usize / 2;
+            let seen = seen.get_mut(place)?;
+            let first = !std::mem::replace(seen, true);
+            first.then(|| list_entries(self.entries, place))?
+        });
+        lists
+            .filter_map(|list| list_frames(&list).ok())
+            .max()
+            .unwrap_or(0)
+    }
+}
+
+/// The list whose first entry is at `place`; `None` when one of its words has no meaning, or it
+/// does not end.
+pub(crate) fn list_entries(entries: &[u32], place: usize) -> Option<Vec<Entry>> {
+    let (pairs, _) = entries.as_chunks();
+    let mut list = Vec::new();
+    for &words in pairs
+        .get(place..)?
+        .iter()
+        .take(MAX_ENTRIES_PER_CELL as usize)
+    {
+        let entry = Entry::decode(words)?;
+        list.push(entry);
+        if entry.last {
+            return Some(list);
+        }
+    }
+    None
 }
 
 impl SpecKey {
@@ -191,7 +244,8 @@ impl SpecKey {
             address_v,
             texels_per_cell: parts.texels_per_cell,
             max_entries: parts.longest_list(),
-            reserved: [0; 2],
+            frames: parts.deepest_list(),
+            reserved: 0,
         }
     }
 

@@ -131,6 +131,8 @@ mod item = "ITEM" {
     WORDS = 4;
     /// Bits of the paint or image index.
     INDEX_MASK = vtex_format::MAX_INDEXED - 1;
+    /// Set in the last item of a control entry, which draws nothing.
+    CONTROL_BIT = 1 << 18;
     /// Set in an item that is no edge: it changes the winding, or nothing.
     GHOST_BIT = 1 << 19;
     /// Left shift that brings the base winding, four bits in two's complement, to the word's top.

@@ -8,7 +8,7 @@
 //! use vtex_shaders::{BindingSlot, fragment};
 //! # use vtex_format::{Features, SHADER_ABI, SpecKey};
 //! # let key = SpecKey { abi: SHADER_ABI, features: Features::LISTS | Features::MSDF, address_u: 0,
-//! #     address_v: 0, texels_per_cell: 8, max_entries: 4, reserved: [0; 2] };
+//! #     address_v: 0, texels_per_cell: 8, max_entries: 4, frames: 0, reserved: 0 };
 //! let text = fragment(&key, BindingSlot { group: 2, binding: 0 });
 //! assert!(text.contains("fn vtex_sample(uv: vec2f, footprint: vec4f) -> vec4f"));
 //! assert!(!text.contains("vtex_image_"), "no code for what the file does not hold");

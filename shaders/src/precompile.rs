@@ -73,7 +73,8 @@ mod tests {
             address_v: 3,
             texels_per_cell: 8,
             max_entries: 40,
-            reserved: [0; 2],
+            frames: 0,
+            reserved: 0,
         };
         let blob = shader_blob(&key).unwrap();
         assert_eq!(blob, shader_blob(&key).unwrap());

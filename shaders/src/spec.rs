@@ -2,8 +2,8 @@
 
 pub use vtex_format::SpecParts;
 use vtex_format::{
-    AddressMode, Entry, EntryKind, Features, Image, MAX_ENTRIES_PER_CELL, SHADER_ABI, SpecKey,
-    VtexFile,
+    AddressMode, Entry, EntryKind, Features, Image, MAX_ENTRIES_PER_CELL, MAX_FRAMES, SHADER_ABI,
+    SpecKey, VtexFile,
 };
 
 use crate::layout::FilterMode;
@@ -80,7 +80,8 @@ pub(crate) fn normalized(key: &SpecKey) -> SpecKey {
         address_v: address(key.address_v),
         texels_per_cell: key.texels_per_cell.clamp(1, MAX_TEXELS_PER_CELL),
         max_entries: key.max_entries.clamp(1, MAX_ENTRIES_PER_CELL),
-        reserved: [0; 2],
+        frames: key.frames.clamp(1, MAX_FRAMES),
+        reserved: 0,
     }
 }
 

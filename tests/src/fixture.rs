@@ -48,7 +48,8 @@ pub fn random_texture(seed: u64, features: u32) -> VtexFile {
             address_v: 0,
             texels_per_cell: 0,
             max_entries: 0,
-            reserved: [0; 2],
+            frames: 0,
+            reserved: 0,
         },
         shader: ShaderBlob {
             abi: SHADER_ABI,
@@ -354,7 +355,7 @@ fn random_entry(
         data: match kind {
             EntryKind::Msdf => r.below(TILES),
             EntryKind::Curves => records[r.below(RECORDS) as usize],
-            EntryKind::Full | EntryKind::Image => 0,
+            _ => 0,
         },
     }
 }

@@ -27,11 +27,7 @@ fn config() -> BakeConfig {
 }
 
 fn drawing(items: Vec<Item>) -> Drawing {
-    Drawing {
-        canvas_size: [100.0; 2],
-        items,
-        warnings: Vec::new(),
-    }
+    Drawing::flat([100.0; 2], items)
 }
 
 fn bake(outline: &BezPath, rule: FillRule) -> VtexFile {

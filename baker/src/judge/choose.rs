@@ -111,7 +111,7 @@ pub(super) fn choose(
     }
 }
 
-/// One an item; patches have none.
+/// One an item; only shapes have one.
 fn subjects(drawing: &Drawing, max_zoom: f32) -> Vec<Option<Subject>> {
     let longer = drawing.canvas_size[0].max(drawing.canvas_size[1]);
     let subject = |item: &Item| match item {
@@ -124,7 +124,7 @@ fn subjects(drawing: &Drawing, max_zoom: f32) -> Vec<Option<Subject>> {
                 prepared,
             })
         }
-        Item::Patch(_) => None,
+        Item::Patch(_) | Item::Clip(_) => None,
     };
     drawing.items.par_iter().map(subject).collect()
 }

@@ -40,25 +40,18 @@ fn bake(drawing: Drawing, config: &BakeConfig) -> VtexFile {
 }
 
 fn drawing(canvas: f64, items: Vec<Item>) -> Drawing {
-    Drawing {
-        canvas_size: [canvas; 2],
-        items,
-        warnings: Vec::new(),
-    }
+    Drawing::flat([canvas; 2], items)
 }
 
 fn alone(canvas_size: [f64; 2], shape: &Shape) -> Drawing {
-    Drawing {
-        canvas_size,
-        items: vec![Item::Shape(Shape {
-            outline: shape.outline.clone(),
-            element: shape.element.clone(),
-            paint: Paint::BLACK,
-            fill_rule: shape.fill_rule,
-            source: shape.source,
-        })],
-        warnings: Vec::new(),
-    }
+    let shape = Item::Shape(Shape {
+        outline: shape.outline.clone(),
+        element: shape.element.clone(),
+        paint: Paint::BLACK,
+        fill_rule: shape.fill_rule,
+        source: shape.source,
+    });
+    Drawing::flat(canvas_size, vec![shape])
 }
 
 /// What a dense check finds in the field of one shape, baked by itself.

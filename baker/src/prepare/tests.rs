@@ -89,7 +89,7 @@ const CLASSES: [(&str, &str, FillRule); 15] = [
 fn shape_of(outline: BezPath, rule: FillRule) -> Shape {
     match shape(outline, rule, [0.0, 0.0, 0.0, 1.0]) {
         Item::Shape(shape) => shape,
-        Item::Patch(_) => unreachable!("made as a shape"),
+        Item::Patch(_) | Item::Clip(_) => unreachable!("made as a shape"),
     }
 }
 
@@ -332,11 +332,7 @@ fn what_cannot_be_prepared_is_baked_as_drawn() {
         }
     }
     outline.close_path();
-    let drawing = Drawing {
-        canvas_size: [CANVAS; 2],
-        items: vec![shape(outline, FillRule::NonZero, [0.0, 0.0, 0.0, 1.0])],
-        warnings: Vec::new(),
-    };
+    let drawing = Drawing::flat([CANVAS; 2], vec![shape(outline, FillRule::NonZero, [0.0, 0.0, 0.0, 1.0])]);
     let config = BakeConfig {
         mode: Mode::Msdf,
         msdf_size: 256,

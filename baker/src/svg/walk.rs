@@ -1,15 +1,19 @@
 //! The walk over a usvg tree in painter's order.
 
-use kurbo::{Affine, BezPath, Cap, Join, Rect};
-use usvg::{BlendMode, Group, ImageKind, Node, PaintOrder};
-use vtex_format::WarningCode;
+use kurbo::{Affine, BezPath, Rect};
+use usvg::{Group, ImageKind, Node, PaintOrder};
+use vtex_format::{MAX_FRAMES, WarningCode};
 
 use crate::BakeError;
 use crate::drawing::{FillRule, Paint, Shape, ShapeSource};
-use crate::stroke::{self, StrokeQuality, StrokeStyle};
+use crate::stroke::{self, StrokeQuality};
 use crate::svg::gradient::{self, has_too_many_stops};
+use crate::svg::group::{Effects, holds_open_blend};
+use crate::svg::recolor::Recolor;
 use crate::svg::path::{affine, bez_path, close_subpaths, transformed_bounds};
+use crate::svg::style::stroke_style;
 use crate::svg::{Plan, Step, Subtree};
+use crate::tree::{self, Tree};
 use crate::warning::Warnings;
 
 /// Canvas sizes that a shape may reach beyond the canvas. usvg's coordinates are f32: further out
@@ -21,8 +25,9 @@ const MAX_FAR_ELEMENTS: usize = 256;
 /// Path elements of all outlines together, strokes expanded; the stages that follow hold several
 /// copies of each.
 const MAX_OUTLINE_ELEMENTS: usize = 1 << 22;
-/// Shapes of a translucent group that are compared with each other for overlap.
-const MAX_FOLDED_SHAPES: usize = 64;
+/// Frames of an evaluator that groups and clips around an item may take; the rest is for what a list
+/// of one cell adds.
+const MAX_DEPTH: u32 = MAX_FRAMES - 2;
 
 /// What of the options changes geometry and colours.
 #[derive(Clone, Copy, Debug)]
@@ -45,20 +50,25 @@ pub(crate) fn plan<'a>(
     warnings: &Warnings,
 ) -> Result<Plan<'a>, BakeError> {
     let canvas_size = [tree.size().width(), tree.size().height()].map(f64::from);
+    let canvas = Rect::new(0.0, 0.0, canvas_size[0], canvas_size[1]);
     let mut walker = Walker {
         options,
         warnings,
-        canvas: Rect::new(0.0, 0.0, canvas_size[0], canvas_size[1]),
+        canvas,
+        window: canvas,
         quality: StrokeQuality {
             canvas_longer_side: canvas_size[0].max(canvas_size[1]),
             max_zoom: options.max_zoom,
         },
         steps: Vec::new(),
+        nodes: Vec::new(),
         element_count: 0,
     };
     let place = Place {
         canvas_from_user: Affine::IDENTITY,
         opacity: 1.0,
+        depth: 0,
+        recolor: None,
         element: "",
     };
     walker.children(tree.root(), place);
@@ -70,26 +80,37 @@ pub(crate) fn plan<'a>(
     Ok(Plan {
         canvas_size,
         steps: walker.steps,
+        tree: Tree {
+            roots: walker.nodes,
+        },
     })
 }
 
-struct Walker<'a, 'w> {
-    options: WalkOptions,
-    warnings: &'w Warnings,
-    canvas: Rect,
+/// The steps so far, and the nodes of the group that is being walked.
+pub(super) struct Walker<'a, 'w> {
+    pub(super) options: WalkOptions,
+    pub(super) warnings: &'w Warnings,
+    pub(super) canvas: Rect,
+    /// What outlines have to meet to be kept: the canvas, unless they are copied elsewhere.
+    pub(super) window: Rect,
     quality: StrokeQuality,
-    steps: Vec<Step<'a>>,
-    /// Path elements of all shapes so far; past the limit nothing more is made.
-    element_count: usize,
+    pub(super) steps: Vec<Step<'a>>,
+    pub(super) nodes: Vec<tree::Node>,
+    /// Path elements of all outlines so far; past the limit nothing more is made.
+    pub(super) element_count: usize,
 }
 
 /// What ancestors hand down.
 #[derive(Clone, Copy)]
-struct Place<'a> {
-    canvas_from_user: Affine,
+pub(super) struct Place<'a> {
+    pub(super) canvas_from_user: Affine,
     /// Of folded groups. Below 1 everything further down is plain, see [`Walker::folds`].
-    opacity: f32,
-    element: &'a str,
+    pub(super) opacity: f32,
+    /// Frames that evaluators need for the groups around it.
+    pub(super) depth: u32,
+    /// What a filter around it does to colours.
+    pub(super) recolor: Option<Recolor>,
+    pub(super) element: &'a str,
 }
 
 impl<'a> Place<'a> {
@@ -99,10 +120,16 @@ impl<'a> Place<'a> {
             ..self
         }
     }
+
+    /// Inside a group that takes so many frames; `None` when there are too many.
+    pub(super) fn deeper(self, frames: u32) -> Option<Self> {
+        let depth = self.depth.saturating_add(frames);
+        (depth <= MAX_DEPTH).then_some(Self { depth, ..self })
+    }
 }
 
 impl<'a> Walker<'a, '_> {
-    fn children(&mut self, group: &'a Group, place: Place<'a>) {
+    pub(super) fn children(&mut self, group: &'a Group, place: Place<'a>) {
         for node in group.children() {
             if self.element_count > MAX_OUTLINE_ELEMENTS {
                 return;
@@ -116,62 +143,21 @@ impl<'a> Walker<'a, '_> {
         match node {
             Node::Group(group) => self.group(node, group, place),
             Node::Path(path) => self.path(node, path, place),
-            Node::Image(image) => {
-                if image.is_visible() {
-                    self.raster(node, place, "image", false);
-                }
-            }
-            Node::Text(text) => match self.first_foreign(text.flattened()) {
-                Some(feature) => self.raster(node, place, feature, false),
-                None => {
-                    let canvas_from_user =
-                        place.canvas_from_user * affine(text.flattened().transform());
-                    self.children(
-                        text.flattened(),
-                        Place {
-                            canvas_from_user,
-                            ..place
-                        },
-                    );
-                }
+            Node::Image(image) => match image.kind() {
+                _ if !image.is_visible() => {}
+                ImageKind::SVG(tree) => self.nested(node, tree, place),
+                _ => self.raster(node, place, "image"),
             },
+            Node::Text(text) => self.group(node, text.flattened(), place),
         }
-    }
-
-    fn group(&mut self, node: &'a Node, group: &'a Group, place: Place<'a>) {
-        if group.blend_mode() != BlendMode::Normal {
-            return self.raster(node, place, "mix-blend-mode", true);
-        }
-        if let Some(feature) = effect(group) {
-            return self.raster(node, place, feature, false);
-        }
-        if group.isolate() && holds_open_blend(group) {
-            return self.raster(node, place, "isolation", false);
-        }
-        let mut opacity = place.opacity;
-        if group.opacity() != usvg::Opacity::ONE {
-            if opacity >= 1.0 && !self.folds(group) {
-                return self.raster(node, place, "opacity", false);
-            }
-            opacity *= group.opacity().get();
-        }
-        let canvas_from_user = place.canvas_from_user * affine(group.transform());
-        self.children(
-            group,
-            Place {
-                canvas_from_user,
-                opacity,
-                ..place
-            },
-        );
     }
 
     fn path(&mut self, node: &'a Node, path: &'a usvg::Path, place: Place<'a>) {
         if !path.is_visible() {
             return;
         }
-        if let Some(feature) = self.foreign_paint(path) {
-            return self.raster(node, place, feature, false);
+        if let Some(feature) = self.raster_paint(path, place) {
+            return self.raster(node, place, feature);
         }
         match path.paint_order() {
             PaintOrder::FillAndStroke => {
@@ -185,7 +171,7 @@ impl<'a> Walker<'a, '_> {
         }
     }
 
-    fn fill(&mut self, path: &usvg::Path, place: Place<'a>) {
+    fn fill(&mut self, path: &'a usvg::Path, place: Place<'a>) {
         let bounds = path.data().bounds();
         let Some(fill) = path.fill() else { return };
         if bounds.width() <= 0.0 || bounds.height() <= 0.0 {
@@ -197,11 +183,14 @@ impl<'a> Walker<'a, '_> {
             usvg::FillRule::EvenOdd => FillRule::EvenOdd,
         };
         let opacity = fill.opacity().get() * place.opacity;
+        if let (usvg::Paint::Pattern(pattern), None) = (fill.paint(), self.options.fill_color) {
+            return self.pattern(pattern, outline, fill_rule, opacity, place);
+        }
         let paint = self.paint(fill.paint(), self.options.fill_color, opacity, place);
         self.shape(outline, fill_rule, paint, ShapeSource::Fill, place);
     }
 
-    fn stroke(&mut self, path: &usvg::Path, place: Place<'a>) {
+    fn stroke(&mut self, path: &'a usvg::Path, place: Place<'a>) {
         let Some(stroke) = path.stroke() else { return };
         let style = stroke_style(stroke);
         let line = bez_path(path.data());
@@ -222,6 +211,10 @@ impl<'a> Walker<'a, '_> {
                 .push(code, "stroke-linejoin", place.element, message);
         }
         let opacity = stroke.opacity().get() * place.opacity * expanded.opacity;
+        if let (usvg::Paint::Pattern(pattern), None) = (stroke.paint(), self.options.stroke_color) {
+            let rule = FillRule::NonZero;
+            return self.pattern(pattern, expanded.outline, rule, opacity, place);
+        }
         let paint = self.paint(stroke.paint(), self.options.stroke_color, opacity, place);
         self.shape(
             expanded.outline,
@@ -268,21 +261,20 @@ impl<'a> Walker<'a, '_> {
         let Some(paint) = paint.filter(Paint::shows) else {
             return;
         };
+        let paint = match place.recolor {
+            Some(recolor) => paint.mapped(|color| recolor.apply(color)),
+            None => paint,
+        };
         let bounds = outline.control_box();
         if !outline.is_finite() || !self.shows(bounds) {
             return;
         }
-        let reach = MAX_REACH * self.quality.canvas_longer_side;
-        let far = bounds.abs().width().max(bounds.abs().height()) > reach;
-        if far && outline.elements().len() > MAX_FAR_ELEMENTS {
-            let message = "a shape reaches too far beyond the canvas and is left out";
-            self.warnings
-                .push(WarningCode::PathFallback, "path", place.element, message);
+        if self.is_too_far(&outline, place.element) {
             return;
         }
         self.element_count += outline.elements().len();
         let element = place.element.to_owned();
-        self.steps.push(Step::Shape(Shape {
+        self.show(Step::Shape(Shape {
             outline,
             fill_rule,
             paint,
@@ -291,30 +283,78 @@ impl<'a> Walker<'a, '_> {
         }));
     }
 
-    fn raster(&mut self, node: &'a Node, place: Place<'a>, feature: &'static str, blends: bool) {
+    /// Whether a shape is left out because of its reach; warns.
+    pub(super) fn is_too_far(&self, outline: &BezPath, element: &str) -> bool {
+        let bounds = outline.control_box();
+        let reach = MAX_REACH * self.quality.canvas_longer_side;
+        let far = bounds.abs().width().max(bounds.abs().height()) > reach;
+        let left_out = far && outline.elements().len() > MAX_FAR_ELEMENTS;
+        if left_out {
+            let message = "a shape reaches too far beyond the canvas and is left out";
+            self.warnings
+                .push(WarningCode::PathFallback, "path", element, message);
+        }
+        left_out
+    }
+
+    /// Number that the next item gets.
+    pub(super) fn next_item(&self) -> u32 {
+        u32::try_from(self.steps.len()).unwrap_or(u32::MAX)
+    }
+
+    /// Adds an item, which shows nothing by itself.
+    pub(super) fn add(&mut self, step: Step<'a>) -> u32 {
+        let item = self.next_item();
+        self.steps.push(step);
+        item
+    }
+
+    /// Adds an item that is painted here.
+    pub(super) fn show(&mut self, step: Step<'a>) {
+        let item = self.add(step);
+        self.nodes.push(tree::Node::Item(item));
+    }
+
+    /// An SVG in an `image`, which blends with nothing outside.
+    fn nested(&mut self, node: &'a Node, tree: &'a usvg::Tree, place: Place<'a>) {
+        if !holds_open_blend(tree.root()) {
+            return self.children(tree.root(), place);
+        }
+        let Some(inner) = place.deeper(1) else {
+            return self.raster(node, place, "nesting");
+        };
+        let effects = Effects {
+            isolated: true,
+            ..Effects::default()
+        };
+        self.scope(self.next_item(), effects, |walker| {
+            walker.children(tree.root(), inner);
+        });
+    }
+
+    pub(super) fn raster(&mut self, node: &'a Node, place: Place<'a>, feature: &'static str) {
         let bounds = layer_bounds(node, place.canvas_from_user);
         if !bounds.is_finite() || !self.shows(bounds) {
             return;
         }
-        self.steps.push(Step::Raster(Subtree {
+        self.show(Step::Raster(Subtree {
             node,
             canvas_from_parent: place.canvas_from_user,
             bounds,
-            blends,
             feature,
             element: place.element.to_owned(),
         }));
     }
 
-    fn shows(&self, bounds: Rect) -> bool {
-        bounds.x0 < self.canvas.x1
-            && bounds.x1 > self.canvas.x0
-            && bounds.y0 < self.canvas.y1
-            && bounds.y1 > self.canvas.y0
+    pub(super) fn shows(&self, bounds: Rect) -> bool {
+        bounds.x0 < self.window.x1
+            && bounds.x1 > self.window.x0
+            && bounds.y0 < self.window.y1
+            && bounds.y1 > self.window.y0
     }
 
     /// The first paint of a visible path that no shape can have.
-    fn foreign_paint(&self, path: &usvg::Path) -> Option<&'static str> {
+    pub(super) fn foreign_paint(&self, path: &usvg::Path) -> Option<&'static str> {
         let fill = path.fill().filter(|_| self.options.fill_color.is_none());
         let stroke = path
             .stroke()
@@ -323,85 +363,11 @@ impl<'a> Walker<'a, '_> {
             .or_else(|| stroke.and_then(|s| foreign(s.paint())))
     }
 
-    /// The first thing in a group that is not a shape, opacity of groups included.
-    fn first_foreign(&self, group: &Group) -> Option<&'static str> {
-        group.children().iter().find_map(|node| match node {
-            Node::Group(child) => effect(child)
-                .or_else(|| (child.blend_mode() != BlendMode::Normal).then_some("mix-blend-mode"))
-                .or_else(|| (child.opacity() != usvg::Opacity::ONE).then_some("opacity"))
-                .or_else(|| self.first_foreign(child)),
-            Node::Path(path) if path.is_visible() => self.foreign_paint(path),
-            Node::Path(_) => None,
-            Node::Image(image) => image.is_visible().then_some("image"),
-            Node::Text(text) => self.first_foreign(text.flattened()),
-        })
+    /// What of a path's paints resvg has to draw.
+    fn raster_paint(&self, path: &usvg::Path, place: Place<'_>) -> Option<&'static str> {
+        self.foreign_paint(path)
+            .filter(|&feature| feature != "pattern" || !self.expands_patterns(path, place))
     }
-
-    /// Whether multiplying the group's opacity into its shapes gives the same picture: all of it
-    /// is shapes, and no two of them overlap.
-    fn folds(&self, group: &Group) -> bool {
-        let mut shapes = Vec::new();
-        let own = affine(group.transform());
-        self.gather(group, own, &mut shapes) && disjoint(&shapes)
-    }
-
-    /// Bounds of every shape; `false` when there is anything else or there are too many.
-    fn gather(&self, group: &Group, transform: Affine, shapes: &mut Vec<Rect>) -> bool {
-        group.children().iter().all(|node| match node {
-            Node::Group(child) => {
-                effect(child).is_none()
-                    && child.blend_mode() == BlendMode::Normal
-                    && self.gather(child, transform * affine(child.transform()), shapes)
-            }
-            Node::Path(path) if path.is_visible() => {
-                let bounds = transformed_bounds(path.stroke_bounding_box(), transform);
-                let parts =
-                    usize::from(path.fill().is_some()) + usize::from(path.stroke().is_some());
-                shapes.extend(std::iter::repeat_n(bounds, parts));
-                shapes.len() <= MAX_FOLDED_SHAPES && self.foreign_paint(path).is_none()
-            }
-            Node::Path(_) => true,
-            Node::Image(image) => !image.is_visible(),
-            Node::Text(text) => {
-                self.first_foreign(text.flattened()).is_none() && {
-                    let inner = affine(text.flattened().transform());
-                    self.gather(text.flattened(), transform * inner, shapes)
-                }
-            }
-        })
-    }
-}
-
-fn disjoint(shapes: &[Rect]) -> bool {
-    let meet = |a: &Rect, b: &Rect| a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
-    shapes
-        .iter()
-        .enumerate()
-        .all(|(i, a)| shapes[..i].iter().all(|b| !meet(a, b)))
-}
-
-/// What makes a group's picture more than the sum of its shapes, opacity and blending aside.
-fn effect(group: &Group) -> Option<&'static str> {
-    if !group.filters().is_empty() {
-        Some("filter")
-    } else if group.mask().is_some() {
-        Some("mask")
-    } else if group.clip_path().is_some() {
-        Some("clipPath")
-    } else {
-        None
-    }
-}
-
-/// Whether something in the group blends with what is behind it inside the group.
-fn holds_open_blend(group: &Group) -> bool {
-    group.children().iter().any(|node| match node {
-        Node::Group(child) => {
-            child.blend_mode() != BlendMode::Normal
-                || (!child.should_isolate() && holds_open_blend(child))
-        }
-        _ => false,
-    })
 }
 
 fn foreign(paint: &usvg::Paint) -> Option<&'static str> {
@@ -410,31 +376,6 @@ fn foreign(paint: &usvg::Paint) -> Option<&'static str> {
         usvg::Paint::LinearGradient(it) => has_too_many_stops(it).then_some("linearGradient"),
         usvg::Paint::RadialGradient(it) => has_too_many_stops(it).then_some("radialGradient"),
         usvg::Paint::Pattern(_) => Some("pattern"),
-    }
-}
-
-fn stroke_style(stroke: &usvg::Stroke) -> StrokeStyle {
-    StrokeStyle {
-        width: f64::from(stroke.width().get()),
-        cap: match stroke.linecap() {
-            usvg::LineCap::Butt => Cap::Butt,
-            usvg::LineCap::Round => Cap::Round,
-            usvg::LineCap::Square => Cap::Square,
-        },
-        join: match stroke.linejoin() {
-            usvg::LineJoin::Miter | usvg::LineJoin::MiterClip => Join::Miter,
-            usvg::LineJoin::Round => Join::Round,
-            usvg::LineJoin::Bevel => Join::Bevel,
-        },
-        miter_limit: f64::from(stroke.miterlimit().get()),
-        dashes: stroke
-            .dasharray()
-            .unwrap_or_default()
-            .iter()
-            .copied()
-            .map(f64::from)
-            .collect(),
-        dash_offset: f64::from(stroke.dashoffset()),
     }
 }
 

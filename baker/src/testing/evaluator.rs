@@ -114,7 +114,7 @@ pub(crate) fn paint_exactly(
                 let region = Region::new(&closed(&(to_uv * &shape.outline)), shape.fill_rule);
                 Some((region, solid(&shape.paint)))
             }
-            Item::Patch(_) => None,
+            Item::Patch(_) | Item::Clip(_) => None,
         })
         .collect();
     move |uv| {

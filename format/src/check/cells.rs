@@ -51,11 +51,15 @@ pub(super) fn entries(file: &VtexFile, tables: &Tables, issues: &mut Issues) {
             issues.add(issue::ENTRY_WORD, Tag::ENTR, offset, message);
             continue;
         };
+        if entry.kind.has_record() {
+            curve_record(&file.curves, entry.data, offset, issues);
+        }
         let (kind, count) = match entry.kind {
             EntryKind::Image => (issue::ENTRY_IMAGE, file.images.len()),
             EntryKind::Full | EntryKind::Msdf | EntryKind::Curves => {
                 (issue::ENTRY_PAINT, file.paints.len())
             }
+            EntryKind::Test | EntryKind::Open | EntryKind::Close | EntryKind::Mask => continue,
         };
         let place = entry.index as usize;
         if place >= count {
@@ -67,12 +71,9 @@ pub(super) fn entries(file: &VtexFile, tables: &Tables, issues: &mut Issues) {
             let message = format_args!("tile {} of {}", entry.data, tables.tile_count);
             issues.add(issue::ENTRY_TILE, Tag::ENTR, offset + 4, message);
         }
-        if entry.kind == EntryKind::Curves {
-            curve_record(&file.curves, entry.data, offset, issues);
-        }
         let opaque = match entry.kind {
             EntryKind::Image => tables.is_opaque_image(&file.images, place),
-            EntryKind::Full | EntryKind::Msdf | EntryKind::Curves => file.paints[place].is_opaque(),
+            _ => file.paints[place].is_opaque(),
         };
         if entry.opaque && !opaque {
             let message = format_args!("{:?} {place}", entry.kind);
@@ -193,7 +194,7 @@ impl Items {
 
 /// Items that evaluators walk for an entry; one where its record is not sound.
 fn entry_items(file: &VtexFile, words: [u32; 2]) -> u64 {
-    let entry = Entry::decode(words).filter(|entry| entry.kind == EntryKind::Curves);
+    let entry = Entry::decode(words).filter(|entry| entry.kind.has_record());
     let record = entry.and_then(|entry| file.curves.get(entry.data as usize..));
     let header = record.and_then(|record| CurveHeader::decode(*record.first_chunk()?));
     let (Some(record), Some(header)) = (record, header) else {

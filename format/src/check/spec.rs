@@ -13,6 +13,7 @@ pub(super) fn spec(file: &VtexFile, longest_list: u32, issues: &mut Issues) {
         address_v,
         texels_per_cell,
         max_entries,
+        frames: _,
         reserved,
     } = file.spec;
     let mut require = |holds: bool, kind, field: u64, message: std::fmt::Arguments<'_>| {
@@ -80,9 +81,9 @@ pub(super) fn spec(file: &VtexFile, longest_list: u32, issues: &mut Issues) {
         format_args!("{max_entries}, not {longest_list}"),
     );
     require(
-        reserved == [0; 2],
+        reserved == 0,
         issue::SPEC_RESERVED,
-        24,
+        28,
         format_args!("not zero"),
     );
 }

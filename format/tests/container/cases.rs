@@ -184,7 +184,7 @@ const VALUE_CASES: &[ValueCase] = &[
     (3036, |f| f.spec.texels_per_cell = 3),
     (3037, |f| f.spec.max_entries = 2),
     (3037, |f| f.spec.max_entries = 4),
-    (3038, |f| f.spec.reserved[1] = 1),
+    (3038, |f| f.spec.reserved = 1),
     (3050, |f| f.provenance.as_mut().unwrap().shapes.truncate(2)),
     (3051, |f| f.provenance.as_mut().unwrap().options.reverse()),
     (3052, |f| field_error(f).wrong_share = 1.5),

@@ -165,6 +165,7 @@ fn kind(kind: EntryKind) -> u32 {
         EntryKind::Msdf => item::MSDF,
         EntryKind::Curves => item::CURVES,
         EntryKind::Image => item::IMAGE,
+        EntryKind::Test | EntryKind::Open | EntryKind::Close | EntryKind::Mask => item::CONTROL_BIT,
     }
 }
 

@@ -69,7 +69,8 @@ pub(crate) const fn key(features: u32) -> SpecKey {
         address_v: 0,
         texels_per_cell: TEXELS,
         max_entries: 8,
-        reserved: [0; 2],
+        frames: 0,
+        reserved: 0,
     }
 }
 

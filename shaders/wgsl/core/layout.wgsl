@@ -43,7 +43,8 @@ const VTEX_CELL_SOLID: u32 = 1u;
 const VTEX_CELL_LIST: u32 = 2u;
 
 const VTEX_ITEM_WORDS: u32 = 4u;
-const VTEX_ITEM_INDEX_MASK: u32 = 0x7ffffu;
+const VTEX_ITEM_INDEX_MASK: u32 = 0x3ffffu;
+const VTEX_ITEM_CONTROL_BIT: u32 = 0x40000u;
 const VTEX_ITEM_GHOST_BIT: u32 = 0x80000u;
 const VTEX_ITEM_BASE_LEFT: u32 = 8u;
 const VTEX_ITEM_BASE_RIGHT: u32 = 28u;

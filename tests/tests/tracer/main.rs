@@ -30,7 +30,8 @@ fn cells_file(size: [u32; 2], colors: &[[f32; 4]]) -> VtexFile {
         address_v: AddressMode::Clamp as u32,
         texels_per_cell: 8,
         max_entries: 0,
-        reserved: [0; 2],
+        frames: 0,
+        reserved: 0,
     };
     VtexFile {
         meta: Meta {

@@ -13,6 +13,7 @@ use crate::{
     grid::Lattice,
     judge::{Coverage, Verdict},
     placed::{Placed, PlacedKind, place},
+    tree::Tree,
     testing::{
         Evaluator, Random, corpus_file, corpus_root, drawing_of, paint_at, random_outline, shape,
         stored_at,
@@ -52,11 +53,7 @@ fn random_drawing(seed: u64, count: usize) -> Drawing {
             shape(outline, rule, [color[0], color[1], color[2], alpha])
         })
         .collect();
-    Drawing {
-        canvas_size: [100.0, 80.0],
-        items,
-        warnings: Vec::new(),
-    }
+    Drawing::flat([100.0, 80.0], items)
 }
 
 /// The outcome of one comparison.
@@ -222,6 +219,7 @@ fn tiles_side_by_side_share_their_border() {
     };
     let mut drawing = random_drawing(3, 40);
     drawing.items.truncate(1);
+    drawing.tree = Tree::flat(1);
     drawing.items[0] = shape(
         kurbo::Circle::new((50.0, 40.0), 23.0).to_path(1e-4),
         FillRule::NonZero,
@@ -289,28 +287,24 @@ fn merged_shapes_share_a_layer_and_are_warned_about() {
         warnings.any(|warning| warning.code == vtex_format::WarningCode::MergeOverlap)
     };
     assert!(warned(&file));
-    let mut apart = random_drawing(6, 2);
-    apart.items = [(20.0, 0.2), (70.0, 0.7)]
+    let apart = [(20.0, 0.2), (70.0, 0.7)]
         .map(|(x, red)| {
             let circle = kurbo::Circle::new((x, 40.0), 10.0).to_path(1e-3);
             shape(circle, FillRule::NonZero, [red, 0.0, 0.0, 1.0])
         })
         .into();
+    let apart = Drawing::flat([100.0, 80.0], apart);
     assert!(!warned(&bake(apart, &config)));
 }
 
 #[test]
 fn an_outline_widens_range_and_lists() {
     let circle = kurbo::Circle::new((50.0, 40.0), 20.0).to_path(1e-3);
-    let drawing = || Drawing {
-        canvas_size: [100.0, 80.0],
-        items: vec![shape(
+    let drawing = || Drawing::flat([100.0, 80.0], vec![shape(
             circle.clone(),
             FillRule::NonZero,
             [1.0, 0.0, 0.0, 1.0],
-        )],
-        warnings: Vec::new(),
-    };
+        )]);
     let config = BakeConfig {
         msdf_size: 128,
         outline_texels: Some(6.0),
@@ -334,11 +328,7 @@ fn an_outline_widens_range_and_lists() {
 
 #[test]
 fn a_drawing_that_shows_nothing_is_one_empty_grid() {
-    let drawing = Drawing {
-        canvas_size: [3.0, 1.0],
-        items: Vec::new(),
-        warnings: Vec::new(),
-    };
+    let drawing = Drawing::flat([3.0, 1.0], Vec::new());
     let file = bake(drawing, &msdf());
     assert!(file.cells.iter().all(|&word| word == 0) && file.tiles.is_empty());
     assert_eq!(file.provenance.unwrap().warnings.len(), 1);
@@ -367,11 +357,7 @@ fn odd_outlines_do_no_harm() {
     infinite.line_to((f64::INFINITY, 3.0));
     infinite.line_to((1.0, 3.0));
     items.push(shape(infinite, FillRule::NonZero, [0.0, 0.0, 0.0, 1.0]));
-    let drawing = Drawing {
-        canvas_size: [100.0, 80.0],
-        items,
-        warnings: Vec::new(),
-    };
+    let drawing = Drawing::flat([100.0, 80.0], items);
     let file = bake(drawing, &msdf());
     // Only the huge rectangle shows there.
     let evaluator = Evaluator { file: &file };
@@ -417,6 +403,7 @@ fn corpus_files_are_listed_right() {
         let mut again = crate::draw(&svg, &config, &Resources::default(), &|_| ()).unwrap();
         for drawing in [&mut drawing, &mut again] {
             drawing.items.retain(|item| matches!(item, Item::Shape(_)));
+            drawing.tree = Tree::flat(drawing.items.len());
         }
         let file = bake(drawing, &config);
         let tally = compare_lists(&again, &file, &config, 2_000);

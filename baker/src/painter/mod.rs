@@ -4,6 +4,9 @@
 //! points, see [`LoweredOutline`] - and none of what they do with it: no cells, no cuts, no steps,
 //! no layers, no f32.
 
+mod blend;
+mod tree;
+
 use kurbo::{Affine, Point, Rect};
 use vtex_format::{COVERAGE_CURVES, Grid, VtexFile};
 use vtex_shaders::cpu::color::decode;
@@ -13,11 +16,12 @@ use crate::{
     config::{BakeConfig, Resources},
     cover::flatness_units,
     curves::lower::{LoweredOutline, Segment},
-    drawing::{FillRule, Item, Paint, Shape},
+    drawing::{FillRule, Item, Paint},
     geometry::floor_index,
     gradient,
     grid::Lattice,
     prepare::clean,
+    tree::{Node, Tree},
 };
 
 /// Bands of heights that segments are sorted into.
@@ -30,6 +34,7 @@ const PLACES: u32 = 64;
 pub struct Painter {
     units_per_uv: [f64; 2],
     offset_units: [f64; 2],
+    tree: Tree,
     /// Front to back.
     shapes: Vec<Painted>,
     /// All shapes' segments, shape by shape from the front.
@@ -41,7 +46,8 @@ pub struct Painter {
 
 #[derive(Debug)]
 struct Painted {
-    paint: Paint,
+    /// `None` of an outline that others are clipped to.
+    paint: Option<Paint>,
     rule: FillRule,
     /// One behind its last segment.
     end: u32,
@@ -74,6 +80,7 @@ impl Painter {
         let mut painter = Self {
             units_per_uv: [canvas.width(), canvas.height()],
             offset_units: [canvas.x0, canvas.y0],
+            tree: drawing.tree,
             shapes: Vec::new(),
             segments: Vec::new(),
             rows: vec![Vec::new(); ROWS],
@@ -82,24 +89,26 @@ impl Painter {
         let tolerance = f64::from(flatness_units(&steps, lattice, config.max_zoom));
         let canvas_longer = drawing.canvas_size[0].max(drawing.canvas_size[1]);
         for item in drawing.items.iter().rev() {
-            let Item::Shape(shape) = item else {
-                return Ok(None);
+            let (outline, rule, paint) = match item {
+                Item::Shape(shape) => (&shape.outline, shape.fill_rule, Some(&shape.paint)),
+                Item::Clip(clip) => (&clip.outline, clip.rule, None),
+                Item::Patch(_) => return Ok(None),
             };
-            let outline = units_from_canvas * clean(&shape.outline, canvas_longer);
+            let outline = units_from_canvas * clean(outline, canvas_longer);
             let Ok(lowered) = LoweredOutline::new(&outline, tolerance) else {
                 return Ok(None);
             };
-            painter.push(shape, lowered);
+            painter.push(lowered, rule, paint.cloned());
         }
         painter.sort_into_rows();
         Ok(Some(painter))
     }
 
-    fn push(&mut self, shape: &Shape, lowered: LoweredOutline) {
+    fn push(&mut self, lowered: LoweredOutline, rule: FillRule, paint: Option<Paint>) {
         self.segments.extend(lowered.segments);
         self.shapes.push(Painted {
-            paint: shape.paint.clone(),
-            rule: shape.fill_rule,
+            paint,
+            rule,
             end: u32::try_from(self.segments.len()).unwrap_or(u32::MAX),
         });
     }
@@ -135,29 +144,53 @@ impl Painter {
 
     /// What a point lookup at `uv`, in \[0, 1\]^2, returns: linear light, premultiplied.
     pub fn color(&self, uv: [f32; 2]) -> [f32; 4] {
+        let mut items = self.covering(uv);
+        items.reverse();
+        let covering = tree::Covering {
+            items: &items,
+            color: |item: u32| self.paint_of(item, uv),
+        };
+        linear(covering.paint(&self.tree.roots, [0.0; 4]))
+    }
+
+    /// The items that `uv` lies in, front to back, as far as they can show.
+    fn covering(&self, uv: [f32; 2]) -> Vec<u32> {
         let p = self.point(uv);
+        let plain = self
+            .tree
+            .roots
+            .iter()
+            .all(|node| matches!(node, Node::Item(_)));
         let mut row = self.rows[self.row_of(p.y)].iter().copied().peekable();
-        let mut behind = self.shapes.as_slice();
-        let mut out = [0.0; 4];
+        let mut first = 0;
+        let mut items = Vec::new();
         // What no segment of the row belongs to is not there.
         while let Some(&next) = row.peek() {
-            let shape = behind.partition_point(|shape| shape.end <= next);
-            let Some(shape_here) = behind.get(shape) else {
+            let index = first + self.shapes[first..].partition_point(|shape| shape.end <= next);
+            let Some(shape) = self.shapes.get(index) else {
                 break;
             };
             let mut winding = 0;
-            while let Some(index) = row.next_if(|&index| index < shape_here.end) {
+            while let Some(index) = row.next_if(|&index| index < shape.end) {
                 winding += crossing(&self.segments[index as usize], p);
             }
-            if shape_here.rule.fills(winding) {
-                under(&mut out, color_at(&shape_here.paint, uv));
+            first = index + 1;
+            if shape.rule.fills(winding) {
+                let item = u32::try_from(self.shapes.len() - first).unwrap_or(u32::MAX);
+                items.push(item);
+                if plain && self.paint_of(item, uv)[3] >= 1.0 {
+                    break;
+                }
             }
-            if out[3] >= 1.0 {
-                break;
-            }
-            behind = &behind[shape + 1..];
         }
-        linear(out)
+        items
+    }
+
+    /// Colour of an item, straight alpha, sRGB-encoded.
+    fn paint_of(&self, item: u32, uv: [f32; 2]) -> [f64; 4] {
+        let shape = &self.shapes[self.shapes.len() - 1 - item as usize];
+        let paint = shape.paint.as_ref();
+        paint.map_or([0.0; 4], |paint| color_at(paint, uv))
     }
 
     /// Distance from `uv` to the nearest outline of any shape, in units of the file's curve
@@ -247,15 +280,6 @@ fn color_at(paint: &Paint, uv: [f32; 2]) -> [f64; 4] {
     match paint {
         Paint::Solid(color) => color.map(f64::from),
         Paint::Gradient(gradient) => gradient::color_at(gradient, uv.map(f64::from)),
-    }
-}
-
-/// Puts a straight-alpha colour behind a premultiplied one, in f64: rounding must not depend on how
-/// entries were merged.
-fn under(out: &mut [f64; 4], [r, g, b, a]: [f64; 4]) {
-    let shown = (1.0 - out[3]) * a;
-    for (sum, channel) in out.iter_mut().zip([r, g, b, 1.0]) {
-        *sum += shown * channel;
     }
 }
 
