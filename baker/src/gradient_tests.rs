@@ -6,7 +6,7 @@ use tiny_skia::{Pixmap, Transform};
 use vtex_format::{Features, Gradient, GradientShape, Spread, VtexFile};
 use vtex_shaders::{PackOptions, cpu, pack};
 
-use crate::drawing::{Item, Paint, to_f32};
+use crate::drawing::{Drawing, Item, Paint, to_f32};
 use crate::testing::{drawing_of, shape, solid};
 use crate::{BakeConfig, Mode, Resources, bake};
 
@@ -314,11 +314,7 @@ fn painter_and_twin_agree() {
         if let Item::Shape(shape) = &mut item {
             shape.paint = Paint::Gradient(Arc::new(gradient.clone()));
         }
-        let drawing = crate::drawing::Drawing {
-            canvas_size: [10.0, 10.0],
-            items: vec![item],
-            warnings: Vec::new(),
-        };
+        let drawing = Drawing::flat([10.0, 10.0], vec![item]);
         let config = BakeConfig::default();
         let file = crate::encode::assemble(drawing, None, &config, [0; 32], &|_| ()).unwrap();
         let words = pack(&file, &PackOptions::default());

@@ -41,6 +41,7 @@ mod grid;
 mod judge;
 mod mips;
 mod msdf;
+mod native;
 mod paint;
 mod paint_table;
 mod painter;

@@ -13,11 +13,11 @@ use crate::{
     grid::Lattice,
     judge::{Coverage, Verdict},
     placed::{Placed, PlacedKind, place},
-    tree::Tree,
     testing::{
         Evaluator, Random, corpus_file, corpus_root, drawing_of, paint_at, random_outline, shape,
         stored_at,
     },
+    tree::Tree,
 };
 
 fn bake(drawing: Drawing, config: &BakeConfig) -> VtexFile {
@@ -300,11 +300,16 @@ fn merged_shapes_share_a_layer_and_are_warned_about() {
 #[test]
 fn an_outline_widens_range_and_lists() {
     let circle = kurbo::Circle::new((50.0, 40.0), 20.0).to_path(1e-3);
-    let drawing = || Drawing::flat([100.0, 80.0], vec![shape(
-            circle.clone(),
-            FillRule::NonZero,
-            [1.0, 0.0, 0.0, 1.0],
-        )]);
+    let drawing = || {
+        Drawing::flat(
+            [100.0, 80.0],
+            vec![shape(
+                circle.clone(),
+                FillRule::NonZero,
+                [1.0, 0.0, 0.0, 1.0],
+            )],
+        )
+    };
     let config = BakeConfig {
         msdf_size: 128,
         outline_texels: Some(6.0),
