@@ -125,7 +125,8 @@ fn color_at(gradient: &Gradient, uv: [f64; 2]) -> Option<[f32; 4]> {
 
 fn compare(gradient: &Gradient) -> u32 {
     let file = solid_cell(gradient);
-    assert_eq!(spec_key(&file).features, Features::GRADIENTS);
+    let features = spec_key(&file).features;
+    assert_eq!(features, Features::GRADIENTS, "a cell's paint counts");
     let words = pack(&file, &PackOptions::default());
     let sampler = Sampler::new(&words);
     let mut compared = 0;
