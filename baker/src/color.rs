@@ -8,7 +8,7 @@ pub(crate) use vtex_shaders::cpu::color::{decode_channel as decode, encode_chann
 
 /// What a mask of one colour, straight alpha and sRGB-encoded, leaves of what it fades.
 pub(crate) fn mask_weight(kind: MaskKind, [r, g, b, a]: [f32; 4]) -> f32 {
-    let light = |[r, g, b]: [f32; 3]| 0.2125 * r + 0.7154 * g + 0.0721 * b;
+    let light = |[r, g, b]: [f32; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
     match kind {
         MaskKind::Alpha => a,
         MaskKind::Luminance => light([r, g, b]) * a,

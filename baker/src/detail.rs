@@ -6,7 +6,7 @@ use crate::color;
 use crate::mips::LinearImage;
 
 /// Codes of a stored channel by which a coarser raster, interpolated as lookups do, may differ.
-const MAX_ERROR: u8 = 1;
+const MAX_ERROR: u8 = 2;
 /// Texels of a side below which nothing is gained.
 const MIN_SIDE: u32 = 16;
 
@@ -81,7 +81,7 @@ mod tests {
     fn soft_pictures_need_few_texels_and_sharp_ones_all() {
         let soft = image(|x, y| {
             let far = (x - 0.5).hypot(y - 0.5);
-            let alpha = (-8.0 * far * far).exp();
+            let alpha = (-16.0 * far * far).exp();
             [0.3 * alpha, 0.1 * alpha, 0.0, alpha]
         });
         let fitted = fitted(soft);

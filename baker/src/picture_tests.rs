@@ -9,7 +9,7 @@ use crate::testing::solid;
 use crate::warning::Warnings;
 use crate::{BakeConfig, BakeError, Mode, Resources, bake, canvas, color, draw, encode, svg};
 
-const SIZE: u32 = 256;
+const SIZE: u32 = 128;
 
 fn svg_of(body: &str) -> String {
     format!(
@@ -34,7 +34,9 @@ fn resvg_picture(tree: &usvg::Tree, size: [u32; 2]) -> Pixmap {
 
 /// Samples a side for each texel compared. Without them tiny-skia's hairlines and its 4 x 4
 /// coverage samples, not our outlines, decide the difference of thin strokes.
-const SAMPLES: u32 = 4;
+const SAMPLES: u32 = 8;
+/// Texels a side for each texel compared in which our lookups lie.
+const OWN_SAMPLES: u32 = 3;
 
 /// The average of [`SAMPLES`] x [`SAMPLES`] texels in linear light.
 fn reduced(pixmap: &Pixmap) -> Pixmap {
@@ -107,7 +109,8 @@ pub(crate) fn compare(
     let small = canvas::canvas_texels(drawing.canvas_size, longer_side);
     let size = small.map(|n| n * SAMPLES);
     let file = encode::assemble(same, None, &config, [0; 32], &|_| {})?;
-    let ours = pixmap_of(&canvas::picture(&file, size).reduced(small));
+    let own = small.map(|n| n * OWN_SAMPLES);
+    let ours = pixmap_of(&canvas::picture(&file, own).reduced(small));
     let tree = svg::parse(svg, resources, &Warnings::default())?;
     let theirs = reduced(&resvg_picture(&tree, size));
     let (psnr, max) = difference(&ours, &theirs);

@@ -177,6 +177,7 @@ issue_table! {
     SPEC_TEXELS = 3036 Malformed "the shader key's texels per cell are not META's";
     SPEC_ENTRIES = 3037 Malformed "the shader key's bound is not the longest list";
     SPEC_RESERVED = 3038 Malformed "reserved words of the shader key are not zero";
+    SPEC_FRAMES = 3039 Malformed "the shader key's frames are not those of the deepest list";
     SHADER_LENGTH = 3040 Malformed "SHDR's lengths do not add up";
     SHADER_TEXT = 3041 Malformed "the shader's text is not UTF-8";
     SHADER_RESERVED = 3042 Malformed "reserved bytes or padding of SHDR are not zero";
@@ -221,6 +222,12 @@ issue_table! {
     OUTLINES = 5021 Malformed "the outlines make no curve records";
     OUTLINE_RECORDS = 5022 Malformed "the curve records are not those that the outlines make";
     OUTLINE_TWICE = 5023 Malformed "there are curve records beside the outlines that make them";
+
+    LIST_JUMP = 5030 Malformed "a jump of a list ends where none may";
+    LIST_GROUP = 5031 Malformed "a group of a list has no beginning or no end";
+    LIST_MASK = 5032 Malformed "a mask of a list is not followed by the group it is for";
+    LIST_BLEND = 5033 Malformed "a group that is not isolated has a blend mode";
+    LIST_FRAMES = 5034 Malformed "a list needs more frames than evaluators have";
 
     TILE_PARTS = 6001 Malformed "the layer ranges of TILE do not follow each other to the last layer";
     TILE_BYTES = 6002 Malformed "the tiles are not as many bytes as the layers say";

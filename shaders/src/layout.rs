@@ -106,6 +106,14 @@ mod feature = "FEATURE" {
     MIPS = vtex_format::Features::MIPS;
     /// [`vtex_format::Features::MASK`].
     MASK = vtex_format::Features::MASK;
+    /// [`vtex_format::Features::OUTLINE`].
+    OUTLINE = vtex_format::Features::OUTLINE;
+    /// [`vtex_format::Features::RAMPS`].
+    RAMPS = vtex_format::Features::RAMPS;
+    /// [`vtex_format::Features::CLIPS`].
+    CLIPS = vtex_format::Features::CLIPS;
+    /// [`vtex_format::Features::GROUPS`].
+    GROUPS = vtex_format::Features::GROUPS;
 }
 
 /// Parts of a fine cell's word: tags as of [`vtex_format::CellWord`], a list's payload counts items.
@@ -126,6 +134,13 @@ mod cell = "CELL" {
 /// end (x in the low half, y in the high half) and the word whose parts these are. Any other entry
 /// is one item whose first word is [`vtex_format::Entry::data`]. The last item of an entry carries
 /// what belongs to all of it: index, base, kind, rule, opaque and last.
+///
+/// An entry that draws nothing has [`CONTROL_BIT`](super::item::CONTROL_BIT) there. A test is
+/// curves; others are one item whose kind is full, with [`JUMP`](super::item::JUMP),
+/// [`OPEN`](super::item::OPEN), [`CLOSE`](super::item::CLOSE) or [`MASK`](super::item::MASK). The
+/// index of a test, jump or mask is the number of items to pass over, 0 for all that follow; the
+/// opaque bit of a test or jump says that it is done inside. First words: of open 1 when isolated;
+/// of mask its kind; of close opacity (float), blend mode and 1 when isolated.
 mod item = "ITEM" {
     /// Words of an item.
     WORDS = 4;
@@ -149,6 +164,16 @@ mod item = "ITEM" {
     CURVES = (vtex_format::EntryKind::Curves as u32) << 24;
     /// [`vtex_format::EntryKind::Image`].
     IMAGE = (vtex_format::EntryKind::Image as u32) << 24;
+    /// Bits that tell control entries apart.
+    CONTROL_MASK = KIND_MASK | LINE_BIT | DOWN_BIT;
+    /// Always passes over items.
+    JUMP = FULL;
+    /// A group begins.
+    OPEN = FULL | LINE_BIT;
+    /// A group ends.
+    CLOSE = FULL | DOWN_BIT;
+    /// A mask ends.
+    MASK = FULL | LINE_BIT | DOWN_BIT;
     /// Set in a straight segment, whose control point is its upper end.
     LINE_BIT = 1 << 26;
     /// Set in a segment along which the outline runs down.
@@ -163,6 +188,50 @@ mod item = "ITEM" {
     OPAQUE_BIT = 1 << 31;
     /// Bound of every loop over the items of a list.
     LIMIT = vtex_format::MAX_LIST_ITEMS;
+    /// Where a walk ends: behind every item.
+    BEYOND = u32::MAX;
+}
+
+/// [`vtex_format::MaskKind`] as stored.
+mod mask = "MASK" {
+    /// [`vtex_format::MaskKind::Luminance`].
+    LUMINANCE = vtex_format::MaskKind::Luminance as u32;
+    /// [`vtex_format::MaskKind::Alpha`].
+    ALPHA = vtex_format::MaskKind::Alpha as u32;
+    /// [`vtex_format::MaskKind::LinearLuminance`].
+    LINEAR_LUMINANCE = vtex_format::MaskKind::LinearLuminance as u32;
+}
+
+/// [`vtex_format::BlendMode`] as stored.
+mod blend = "BLEND" {
+    /// [`vtex_format::BlendMode::Multiply`].
+    MULTIPLY = vtex_format::BlendMode::Multiply as u32;
+    /// [`vtex_format::BlendMode::Screen`].
+    SCREEN = vtex_format::BlendMode::Screen as u32;
+    /// [`vtex_format::BlendMode::Overlay`].
+    OVERLAY = vtex_format::BlendMode::Overlay as u32;
+    /// [`vtex_format::BlendMode::Darken`].
+    DARKEN = vtex_format::BlendMode::Darken as u32;
+    /// [`vtex_format::BlendMode::Lighten`].
+    LIGHTEN = vtex_format::BlendMode::Lighten as u32;
+    /// [`vtex_format::BlendMode::ColorDodge`].
+    COLOR_DODGE = vtex_format::BlendMode::ColorDodge as u32;
+    /// [`vtex_format::BlendMode::ColorBurn`].
+    COLOR_BURN = vtex_format::BlendMode::ColorBurn as u32;
+    /// [`vtex_format::BlendMode::HardLight`].
+    HARD_LIGHT = vtex_format::BlendMode::HardLight as u32;
+    /// [`vtex_format::BlendMode::SoftLight`].
+    SOFT_LIGHT = vtex_format::BlendMode::SoftLight as u32;
+    /// [`vtex_format::BlendMode::Difference`].
+    DIFFERENCE = vtex_format::BlendMode::Difference as u32;
+    /// [`vtex_format::BlendMode::Exclusion`].
+    EXCLUSION = vtex_format::BlendMode::Exclusion as u32;
+    /// [`vtex_format::BlendMode::Hue`]; those behind it are not separable either.
+    HUE = vtex_format::BlendMode::Hue as u32;
+    /// [`vtex_format::BlendMode::Saturation`].
+    SATURATION = vtex_format::BlendMode::Saturation as u32;
+    /// [`vtex_format::BlendMode::Color`].
+    COLOR = vtex_format::BlendMode::Color as u32;
 }
 
 /// Of curves.

@@ -8,8 +8,8 @@ use vtex_format::{
 
 use crate::cpu::{color, to_f32};
 use crate::layout::{FilterMode, OFFSET_END, gradient, header, image, paint};
-use crate::refine::refine;
-use crate::spec::spec_key_with;
+use crate::refine::{Order, Walk, refine};
+use crate::spec::{is_composited, spec_key_with};
 
 /// Evaluators read four words at a time.
 const GROUP_WORDS: usize = 4;
@@ -51,7 +51,13 @@ impl PackOptions {
 pub fn pack(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
     let key = spec_key_with(file, options);
     let distances = key.features & (Features::RAMPS | Features::OUTLINE) != 0;
-    let refined = refine(file, distances, options.halvings);
+    let order = if is_composited(key.features) {
+        Order::BackToFront
+    } else {
+        Order::FrontToBack
+    };
+    let walk = Walk { distances, order };
+    let refined = refine(file, walk, options.halvings);
     let mut words = header_words(file, options, &key);
     let fine = |axis: usize| to_f32(file.meta.grid.size_cells[axis] << refined.depth);
     let per_cell = to_f32(1 << refined.depth);

@@ -5,7 +5,10 @@
 //! can tell apart. Nothing is cut or rounded, so every lookup gets the answer that the coarse cell
 //! gives.
 
+mod clip;
 mod depth;
+mod group;
+mod items;
 mod list;
 mod outline;
 
@@ -14,6 +17,7 @@ use std::collections::BTreeMap;
 use vtex_format::{CellWord, VtexFile};
 
 use crate::layout::cell;
+pub(crate) use items::Order;
 use list::List;
 use outline::Region;
 
@@ -28,15 +32,25 @@ pub(crate) struct Refined {
     pub(crate) items: Vec<[u32; 4]>,
 }
 
-/// `distances` says that lookups measure how far edges are, not only on which side; `halvings` as in
-/// [`crate::PackOptions`].
-pub(crate) fn refine(file: &VtexFile, distances: bool, halvings: Option<u32>) -> Refined {
+/// How evaluators walk lists.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Walk {
+    /// Whether they measure how far edges are, not only on which side.
+    pub(crate) distances: bool,
+    /// What they come to first.
+    pub(crate) order: Order,
+}
+
+/// `halvings` as in [`crate::PackOptions`].
+pub(crate) fn refine(file: &VtexFile, walk: Walk, halvings: Option<u32>) -> Refined {
+    let distances = walk.distances;
     let depth = match halvings {
         Some(halvings) => halvings.min(depth::MAX_DEPTH),
         None => depth::choose(file, distances),
     };
     let [columns, rows] = file.meta.grid.size_cells.map(|count| count as usize);
     let mut build = Build {
+        order: walk.order,
         pitch: columns << depth,
         words: vec![0; (columns << depth) * (rows << depth)],
         items: Vec::new(),
@@ -82,6 +96,7 @@ fn list_of(file: &VtexFile, offset_words: u32) -> List {
 }
 
 struct Build {
+    order: Order,
     pitch: usize,
     words: Vec<u32>,
     items: Vec<[u32; 4]>,
@@ -112,7 +127,7 @@ impl Build {
         } else if let Some(paint) = list.solid() {
             cell::SOLID << cell::TAG_SHIFT | paint
         } else {
-            let items = list.items();
+            let items = list.items(self.order);
             let next = u32::try_from(self.items.len()).unwrap_or(cell::PAYLOAD_MASK);
             let first = *self.shared.entry(items).or_insert_with_key(|items| {
                 self.items.extend(items);

@@ -57,14 +57,28 @@ fn has_canvas_mips(images: &[Image], entry_words: &[u32]) -> bool {
     images.first().is_some_and(spans_canvas) && !entries(entry_words).any(|e| names_first(&e))
 }
 
+/// Whether lists are walked back to front by the evaluator that keeps frames (docs/decisions/0011),
+/// whose walk is the order of their items.
+pub(crate) const fn is_composited(features: u32) -> bool {
+    let ramps = features & (Features::RAMPS | Features::OUTLINE) != 0;
+    features & Features::GROUPS != 0 || features & Features::CLIPS != 0 && ramps
+}
+
 /// `key` with what no evaluator could be made for put right: unknown bits dropped, features that
 /// need another dropped or completed, numbers brought into range.
 pub(crate) fn normalized(key: &SpecKey) -> SpecKey {
     const LISTED: u32 =
-        Features::MSDF | Features::CURVES | Features::IMAGES | Features::TRANSLUCENT;
+        Features::MSDF | Features::CURVES | Features::IMAGES | Features::TRANSLUCENT | SCOPED;
+    const SCOPED: u32 = Features::CLIPS | Features::GROUPS | Features::BLENDS;
     let mut features = key.features & Features::ALL;
     if features & Features::LISTS == 0 {
         features &= !LISTED;
+    }
+    if features & Features::BLENDS != 0 {
+        features |= Features::GROUPS;
+    }
+    if features & Features::CLIPS != 0 {
+        features |= Features::CURVES;
     }
     if features & (Features::MSDF | Features::CURVES) == 0 {
         features &= !(Features::OUTLINE | Features::RAMPS);

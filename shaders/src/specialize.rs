@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use vtex_format::{AddressMode, Features, MAX_ENTRIES_PER_CELL, SpecKey};
+use vtex_format::{AddressMode, Features, MAX_ENTRIES_PER_CELL, MAX_FRAMES, SpecKey};
 
 use crate::link::{LinkContext, link};
-use crate::spec::normalized;
+use crate::spec::{is_composited, normalized};
 
 /// Queries a workgroup of the batch kernel answers.
 pub const BATCH_WORKGROUP: u32 = 64;
@@ -65,7 +65,7 @@ pub fn scene_context(features: u32, slot: BindingSlot) -> LinkContext {
         address_v: AddressMode::Border as u32,
         texels_per_cell: 1,
         max_entries: MAX_ENTRIES_PER_CELL,
-        frames: 0,
+        frames: MAX_FRAMES,
         reserved: 0,
     });
     let has = |feature: u32| key.features & feature != 0;
@@ -75,8 +75,19 @@ pub fn scene_context(features: u32, slot: BindingSlot) -> LinkContext {
     } else {
         "value_color"
     };
-    let constants = format!("const VTEX_KEY_MAX_ENTRIES: u32 = {}u;\n", key.max_entries);
-    slots(key.features & !Features::MASK)
+    let constants = format!(
+        "const VTEX_KEY_MAX_ENTRIES: u32 = {}u;\nconst VTEX_KEY_FRAMES: u32 = {}u;\n",
+        key.max_entries, key.frames
+    );
+    let features = key.features & !Features::MASK;
+    let picture = match (is_composited(features), has(Features::CLIPS)) {
+        (true, true) => "vtex/picture_any",
+        (true, false) => "vtex/picture_mixed",
+        (false, true) => "vtex/picture_clips",
+        (false, false) => "vtex/picture_cells",
+    };
+    slots(features)
+        .fill("vtex/picture", picture)
         .define("vtex/key", binding(slot) + &constants)
         .fill("vtex/value", &format!("vtex/{value}"))
         .fill("vtex/settings", "vtex/settings_header")
@@ -93,6 +104,7 @@ fn single_context(key: &SpecKey, slot: BindingSlot) -> LinkContext {
         ("ADDRESS_V", key.address_v),
         ("TEXELS_PER_CELL", key.texels_per_cell),
         ("MAX_ENTRIES", key.max_entries),
+        ("FRAMES", key.frames),
     ] {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "const VTEX_KEY_{name}: u32 = {value}u;");
@@ -120,6 +132,12 @@ fn slots(features: u32) -> LinkContext {
     let pick = |feature: u32, with: &'static str, without: &'static str| {
         if has(feature) { with } else { without }
     };
+    // A mask's groups blend and weigh in colour; alpha is spread last.
+    let alpha = if is_composited(features) {
+        0
+    } else {
+        Features::MASK
+    };
     let fixed = [
         (
             "vtex/matrix",
@@ -131,15 +149,19 @@ fn slots(features: u32) -> LinkContext {
         ),
         (
             "vtex/value",
-            pick(Features::MASK, "vtex/value_mask", "vtex/value_color"),
+            match (has(Features::MASK), has(alpha)) {
+                (false, _) => "vtex/value_color",
+                (true, true) => "vtex/value_mask",
+                (true, false) => "vtex/value_any",
+            },
         ),
         (
             "vtex/paint",
-            pick(Features::MASK, "vtex/paint_alpha", "vtex/paint_color"),
+            pick(alpha, "vtex/paint_alpha", "vtex/paint_color"),
         ),
         (
             "vtex/texel",
-            pick(Features::MASK, "vtex/texel_alpha", "vtex/texel_color"),
+            pick(alpha, "vtex/texel_alpha", "vtex/texel_color"),
         ),
         (
             "vtex/minify",
@@ -148,10 +170,6 @@ fn slots(features: u32) -> LinkContext {
         (
             "vtex/source",
             pick(Features::IMAGES, "vtex/source_image", "vtex/source_paint"),
-        ),
-        (
-            "vtex/tint",
-            pick(Features::IMAGES, "vtex/tint_image", "vtex/tint_paint"),
         ),
         (
             "vtex/entry",
@@ -166,13 +184,14 @@ fn slots(features: u32) -> LinkContext {
         .into_iter()
         .chain(cell_slots(features))
         .chain(paint_slots(features))
+        .chain(scope_slots(features))
         .fold(LinkContext::default(), |context, (slot, module)| {
             context.fill(slot, module)
         })
 }
 
 /// The modules that know kinds of paints.
-fn paint_slots(features: u32) -> [(&'static str, &'static str); 3] {
+fn paint_slots(features: u32) -> [(&'static str, &'static str); 4] {
     let has = |feature: u32| features & feature != 0;
     let fill = match (has(Features::GRADIENTS), has(Features::MASK)) {
         (false, _) => "vtex/fill_solid",
@@ -190,8 +209,14 @@ fn paint_slots(features: u32) -> [(&'static str, &'static str); 3] {
         (true, false) if has(Features::GRADIENTS) => "vtex/hit_over_gradient",
         (true, false) => "vtex/hit_over",
     };
+    let tint = match (has(Features::GRADIENTS), has(Features::IMAGES)) {
+        (false, _) => "vtex/tint_source",
+        (true, false) => "vtex/tint_paint",
+        (true, true) => "vtex/tint_image",
+    };
     [
         ("vtex/fill", fill),
+        ("vtex/tint", tint),
         ("vtex/encoded", encoded),
         ("vtex/hit", hit),
     ]
@@ -245,6 +270,42 @@ fn cell_slots(features: u32) -> [(&'static str, &'static str); 6] {
         ("vtex/coverage", coverage),
         ("vtex/edge", edge),
         ("vtex/composite", composite),
+    ]
+}
+
+/// The modules for lists that clip and group.
+fn scope_slots(features: u32) -> [(&'static str, &'static str); 6] {
+    let has = |feature: u32| features & feature != 0;
+    let ramps = has(Features::RAMPS) || has(Features::OUTLINE);
+    let picture = match (is_composited(features), has(Features::CLIPS)) {
+        (true, _) => "vtex/picture_scopes",
+        (false, true) => "vtex/picture_clips",
+        (false, false) => "vtex/picture_cells",
+    };
+    let flow = match (has(Features::CLIPS), ramps) {
+        (false, _) => "vtex/flow_none",
+        (true, false) => "vtex/flow_point",
+        (true, true) => "vtex/flow_ramp",
+    };
+    let group = match has(Features::GROUPS) {
+        true => "vtex/group_frames",
+        false => "vtex/group_none",
+    };
+    let blend = match has(Features::BLENDS) {
+        true => "vtex/blend_modes",
+        false => "vtex/blend_normal",
+    };
+    let [scopes, tone] = match ramps {
+        true => ["vtex/scopes_ramp", "vtex/tone_linear"],
+        false => ["vtex/scopes_point", "vtex/tone_encoded"],
+    };
+    [
+        ("vtex/picture", picture),
+        ("vtex/flow", flow),
+        ("vtex/group", group),
+        ("vtex/blend", blend),
+        ("vtex/scopes", scopes),
+        ("vtex/tone", tone),
     ]
 }
 

@@ -5,3 +5,4 @@
 pub mod fixture;
 pub mod gpu;
 pub mod random;
+pub mod scopes;

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 use vtex_baker::{BakeConfig, Resources, bake};
-use vtex_format::{Features, VtexFile};
+use vtex_format::{Features, Outline, SpecKey, VtexFile};
 use vtex_shaders::cpu::Sampler;
 use vtex_shaders::{
     BatchQuery, BindingSlot, FilterMode, PackOptions, batch_kernel, link, pack, scene_context,
@@ -13,6 +13,7 @@ use vtex_shaders::{
 use vtex_tests::fixture::random_texture;
 use vtex_tests::gpu::Gpu;
 use vtex_tests::random::Random;
+use vtex_tests::scopes::{Drawing, Wants};
 
 /// Lookups of a random texture in each filter mode.
 const RANDOM_QUERIES: u32 = 100_000;
@@ -230,6 +231,50 @@ fn twin_and_gpu_agree_on_baked_drawings() {
     }
 }
 
+/// Random trees of clips, groups, masks and blend modes, as they are, as a mask and outlined.
+fn scoped_files() -> Vec<(String, VtexFile)> {
+    let wants = [
+        ("clips", [true, false, false]),
+        ("groups", [false, true, false]),
+        ("blends", [true, true, true]),
+    ];
+    let mut files = Vec::new();
+    for (name, [clips, groups, blends]) in wants {
+        let wants = Wants {
+            clips,
+            groups,
+            blends,
+        };
+        let plain = Drawing::random(11, 40, wants).file();
+        let mut mask = plain.clone();
+        mask.meta.sampler.mask = true;
+        let mut outlined = plain.clone();
+        outlined.meta.sampler.outline = Some(Outline {
+            width_texels: 0.3,
+            paint: 1,
+        });
+        for (kind, mut file) in [("", plain), (" mask", mask), (" outlined", outlined)] {
+            file.spec = SpecKey::for_file(&file);
+            assert_eq!(file.check(), [], "{name}{kind}");
+            files.push((format!("{name}{kind}"), file));
+        }
+    }
+    files
+}
+
+#[test]
+fn twin_and_gpu_agree_on_clips_and_groups() {
+    let Some(gpu) = Gpu::open() else { return };
+    for (name, file) in scoped_files() {
+        let lookups = Lookups {
+            counts: [RANDOM_QUERIES; 3],
+            margin: 0.1,
+            torn: TORN_SHARE,
+        };
+        check_file(&gpu, &name, &file, &lookups);
+    }
+}
+
 #[test]
 fn the_spirv_in_a_file_is_the_same_kernel() {
     let Some(gpu) = Gpu::open() else { return };
@@ -250,44 +295,55 @@ fn the_spirv_in_a_file_is_the_same_kernel() {
 #[test]
 fn scenes_look_up_each_texture_as_if_it_were_alone() {
     let Some(gpu) = Gpu::open() else { return };
-    let files: Vec<VtexFile> = CASES
-        .iter()
-        .map(|(_, features)| random_texture(5, *features))
-        .collect();
+    let plain = CASES.iter();
+    let plain = plain.map(|(name, features)| (name.to_string(), random_texture(5, *features)));
+    let files: Vec<(String, VtexFile)> = plain.chain(scoped_files()).collect();
+    // Without outlines too: then clips alone are walked front to back.
+    let sharp = |files: &[(String, VtexFile)]| -> Vec<(String, VtexFile)> {
+        let sharp = files
+            .iter()
+            .filter(|(_, file)| file.meta.sampler.outline.is_none());
+        sharp.cloned().collect()
+    };
+    check_scene(&gpu, FilterMode::Point, &sharp(&files));
     for filter in [FilterMode::Point, FilterMode::Footprint] {
-        let options = PackOptions {
-            filter,
-            ..PackOptions::default()
+        check_scene(&gpu, filter, &files);
+    }
+}
+
+fn check_scene(gpu: &Gpu, filter: FilterMode, files: &[(String, VtexFile)]) {
+    let options = PackOptions {
+        filter,
+        ..PackOptions::default()
+    };
+    let packed: Vec<Vec<u32>> = files.iter().map(|(_, file)| pack(file, &options)).collect();
+    let union = files.iter().fold(0, |union, (_, file)| {
+        union | spec_key_with(file, &options).features
+    });
+    let mut bases = Vec::new();
+    let mut words = Vec::new();
+    for texture in &packed {
+        bases.push(u32::try_from(words.len()).unwrap());
+        words.extend(texture);
+    }
+    let mut queries = random_queries(9, RANDOM_QUERIES, 1.5);
+    for (query, base) in queries.iter_mut().zip(bases.iter().cycle()) {
+        query.padding[0] = f32::from_bits(*base);
+    }
+    let kernel = gpu.kernel(wgpu::ShaderSource::Wgsl(Cow::Owned(scene_kernel(union))));
+    let answers = kernel.run(&words, &queries).colors;
+    for (i, texture) in packed.iter().enumerate() {
+        let mine = |list: &[BatchQuery]| -> Vec<BatchQuery> {
+            list.iter().skip(i).step_by(packed.len()).copied().collect()
         };
-        let packed: Vec<Vec<u32>> = files.iter().map(|file| pack(file, &options)).collect();
-        let union = files.iter().fold(0, |union, file| {
-            union | spec_key_with(file, &options).features
-        });
-        let mut bases = Vec::new();
-        let mut words = Vec::new();
-        for texture in &packed {
-            bases.push(u32::try_from(words.len()).unwrap());
-            words.extend(texture);
-        }
-        let mut queries = random_queries(9, RANDOM_QUERIES, 1.5);
-        for (query, base) in queries.iter_mut().zip(bases.iter().cycle()) {
-            query.padding[0] = f32::from_bits(*base);
-        }
-        let kernel = gpu.kernel(wgpu::ShaderSource::Wgsl(Cow::Owned(scene_kernel(union))));
-        let answers = kernel.run(&words, &queries).colors;
-        for (i, texture) in packed.iter().enumerate() {
-            let mine = |list: &[BatchQuery]| -> Vec<BatchQuery> {
-                list.iter().skip(i).step_by(packed.len()).copied().collect()
-            };
-            let seen: Vec<_> = answers
-                .iter()
-                .skip(i)
-                .step_by(packed.len())
-                .copied()
-                .collect();
-            let expected = twin(texture, &mine(&queries));
-            check(CASES[i].0, filter, TORN_SHARE, [&expected, &seen]);
-        }
+        let seen: Vec<_> = answers
+            .iter()
+            .skip(i)
+            .step_by(packed.len())
+            .copied()
+            .collect();
+        let expected = twin(texture, &mine(&queries));
+        check(&files[i].0, filter, TORN_SHARE, [&expected, &seen]);
     }
 }
 

@@ -83,7 +83,8 @@ fn keys_that_no_file_should_have_still_make_a_shader() {
 }
 
 /// Ends of loops.
-const BOUNDS: [&str; 6] = [
+const BOUNDS: [&str; 7] = [
+    "i < VTEX_KEY_FRAMES; i += 1u",
     "i < VTEX_KEY_MAX_ENTRIES; i += 1u",
     "i < 2u * VTEX_KEY_MAX_ENTRIES; i += 1u",
     "i < VTEX_ITEM_LIMIT; i += 1u",
@@ -94,8 +95,11 @@ const BOUNDS: [&str; 6] = [
 
 #[test]
 fn loops_are_bounded_by_constants() {
-    let points = Features::ALL & !(Features::MASK | Features::RAMPS | Features::OUTLINE);
-    for features in [Features::ALL & !Features::MASK, points] {
+    let ramps = Features::ALL & !Features::MASK;
+    let scoped = Features::CLIPS | Features::GROUPS | Features::BLENDS;
+    let points = ramps & !(Features::RAMPS | Features::OUTLINE);
+    let clips = points & !scoped | Features::CLIPS;
+    for features in [ramps, points, ramps & !scoped, points & !scoped, clips] {
         check_loops(features);
     }
 }

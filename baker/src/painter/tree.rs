@@ -63,7 +63,7 @@ impl<P: Fn(u32) -> [f64; 4]> Covering<'_, P> {
 
     fn weight(&self, mask: &Mask) -> f64 {
         let picture = self.paint(&mask.children, [0.0; 4]);
-        let light = |[r, g, b]: [f64; 3]| 0.2125 * r + 0.7154 * g + 0.0721 * b;
+        let light = |[r, g, b]: [f64; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
         let [r, g, b, alpha] = picture;
         match mask.kind {
             MaskKind::Alpha => alpha,

@@ -4,9 +4,10 @@ use std::cell::OnceCell;
 
 use crate::cell::LAST_BIT;
 use crate::issue::{self, Issues};
+use crate::spec::list_entries;
 use crate::{
-    CURVE_HEADER_WORDS, CellWord, CurveHeader, Entry, EntryKind, Image, MAX_ENTRIES_PER_CELL,
-    MAX_ITEMS, MAX_LIST_ITEMS, Tag, VtexFile,
+    CURVE_HEADER_WORDS, CellWord, CurveHeader, Entry, EntryKind, Image, ListFaultKind,
+    MAX_ENTRIES_PER_CELL, MAX_ITEMS, MAX_LIST_ITEMS, Tag, VtexFile, list_frames,
 };
 
 /// What entries may name.
@@ -29,6 +30,15 @@ impl Tables {
         let known = self.opaque_images.get(index).zip(images.get(index));
         known.is_some_and(|(known, image)| *known.get_or_init(|| image.is_opaque()))
     }
+}
+
+/// What the key says of all lists that cells name.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Bounds {
+    /// Length of the longest.
+    pub(super) longest: u32,
+    /// Frames of the deepest.
+    pub(super) frames: u32,
 }
 
 /// Every entry has a meaning and names what exists, whether or not a cell lists it.
@@ -106,8 +116,8 @@ fn curve_record(curves: &[u32], at: u32, entry_offset: u64, issues: &mut Issues)
     }
 }
 
-/// Every cell names what exists and every list ends; returns the longest list's length.
-pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> u32 {
+/// Every cell names what exists, every list ends and its control entries fit together.
+pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> Bounds {
     let [columns, rows] = file.meta.grid.size_cells.map(u64::from);
     if file.cells.len() as u64 != columns * rows {
         let message = format_args!("{} words for {columns} x {rows} cells", file.cells.len());
@@ -115,10 +125,12 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> u32 {
     }
     let lengths = list_lengths(&file.entries);
     let mut items = Items::of(file);
-    let mut longest = 0;
+    let controls = has_controls(&file.entries);
+    let mut bounds = Bounds::default();
     for (index, &word) in file.cells.iter().enumerate() {
+        let offset = 4 * index as u64;
         let mut note = |kind, message: std::fmt::Arguments<'_>| {
-            issues.add(kind, Tag::CELL, 4 * index as u64, message);
+            issues.add(kind, Tag::CELL, offset, message);
         };
         match CellWord::decode(word) {
             None => note(issue::CELL_WORD, format_args!("word {word:#010x}")),
@@ -135,10 +147,16 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> u32 {
                 match length.filter(|_| offset_words % 2 == 0) {
                     None => note(issue::LIST_OFFSET, format_args!("word {offset_words}")),
                     Some(Some(length)) => {
-                        longest = longest.max(*length);
-                        let items = items.take(offset_words as usize / 2);
-                        if items > u64::from(MAX_LIST_ITEMS) {
-                            note(issue::LIST_ITEMS, format_args!("{items} items"));
+                        bounds.longest = bounds.longest.max(*length);
+                        let first = offset_words as usize / 2;
+                        let (count, is_new) = items.take(first);
+                        if count > u64::from(MAX_LIST_ITEMS) {
+                            note(issue::LIST_ITEMS, format_args!("{count} items"));
+                        }
+                        // What is too much altogether is refused without a look at each.
+                        if controls && is_new && items.total <= MAX_ITEMS {
+                            let frames = controls_of(&file.entries, first, issues);
+                            bounds.frames = bounds.frames.max(frames);
                         }
                     }
                     Some(None) => note(
@@ -153,7 +171,37 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> u32 {
         let message = format_args!("{} of at most {MAX_ITEMS} items", items.total);
         issues.add(issue::ALL_ITEMS, Tag::CELL, 0, message);
     }
-    longest
+    bounds
+}
+
+/// Whether some entry draws nothing.
+fn has_controls(entries: &[u32]) -> bool {
+    let (pairs, _) = entries.as_chunks();
+    let mut entries = pairs.iter().filter_map(|&words| Entry::decode(words));
+    entries.any(|entry| !entry.kind.draws())
+}
+
+/// The frames that the list whose first entry is at `first` needs; 0 where it breaks a rule.
+fn controls_of(entries: &[u32], first: usize, issues: &mut Issues) -> u32 {
+    // A list with an entry that means nothing has its issue already.
+    let Some(list) = list_entries(entries, first) else {
+        return 0;
+    };
+    match list_frames(&list) {
+        Ok(frames) => frames,
+        Err(fault) => {
+            let kind = match fault.kind {
+                ListFaultKind::Jump => issue::LIST_JUMP,
+                ListFaultKind::Bracket => issue::LIST_GROUP,
+                ListFaultKind::Mask => issue::LIST_MASK,
+                ListFaultKind::Blend => issue::LIST_BLEND,
+                ListFaultKind::Frames => issue::LIST_FRAMES,
+            };
+            let message = format_args!("entry {} of the list at {first}", fault.entry);
+            issues.add(kind, Tag::ENTR, 8 * (first + fault.entry) as u64, message);
+            0
+        }
+    }
 }
 
 /// Items of lists, by the entry a list starts with.
@@ -183,12 +231,14 @@ impl Items {
         }
     }
 
-    fn take(&mut self, first: usize) -> u64 {
+    /// Items of a list, and whether it is asked for the first time.
+    fn take(&mut self, first: usize) -> (u64, bool) {
         let items = self.to_the_end[first];
-        if !std::mem::replace(&mut self.taken[first], true) {
+        let is_new = !std::mem::replace(&mut self.taken[first], true);
+        if is_new {
             self.total = self.total.saturating_add(items);
         }
-        items
+        (items, is_new)
     }
 }
 

@@ -1,11 +1,12 @@
 //! The shader key against what it was made for.
 
+use super::cells::Bounds;
 use crate::issue::{self, Issues};
 use crate::spec::{Features, SHADER_ABI, SpecKey};
 use crate::{Tag, VtexFile};
 
 /// The key is of this ABI, knows every feature the content needs, and repeats META rightly.
-pub(super) fn spec(file: &VtexFile, longest_list: u32, issues: &mut Issues) {
+pub(super) fn spec(file: &VtexFile, bounds: Bounds, issues: &mut Issues) {
     let SpecKey {
         abi,
         features,
@@ -13,7 +14,7 @@ pub(super) fn spec(file: &VtexFile, longest_list: u32, issues: &mut Issues) {
         address_v,
         texels_per_cell,
         max_entries,
-        frames: _,
+        frames,
         reserved,
     } = file.spec;
     let mut require = |holds: bool, kind, field: u64, message: std::fmt::Arguments<'_>| {
@@ -73,12 +74,20 @@ pub(super) fn spec(file: &VtexFile, longest_list: u32, issues: &mut Issues) {
         16,
         format_args!("{texels_per_cell}, not {texels}"),
     );
-    let same = max_entries == longest_list;
+    let longest = bounds.longest;
+    let same = max_entries == longest;
     require(
         same,
         issue::SPEC_ENTRIES,
         20,
-        format_args!("{max_entries}, not {longest_list}"),
+        format_args!("{max_entries}, not {longest}"),
+    );
+    let deepest = bounds.frames;
+    require(
+        frames == deepest,
+        issue::SPEC_FRAMES,
+        24,
+        format_args!("{frames}, not {deepest}"),
     );
     require(
         reserved == 0,

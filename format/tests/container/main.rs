@@ -11,3 +11,4 @@ mod gradients;
 mod outlined;
 mod roundtrip;
 mod sample;
+mod scoped;

@@ -1,11 +1,13 @@
 //! Twin of `vtex/composite_front.wgsl`, `vtex/composite_point.wgsl` and `vtex/composite_ramp.wgsl`,
 //! and of the list in `vtex/cells_first.wgsl`.
 
+use super::coverage::{Covered, coverage};
 use super::entry::Entry;
+use super::flow;
 use super::over::{opaque, over, over_encoded};
 use super::{Lookup, Sampler, Value, color};
 use crate::layout::filter;
-use crate::layout::item::{END_BIT, LAST_BIT, LIMIT, WORDS};
+use crate::layout::item::{CONTROL_BIT, END_BIT, LAST_BIT, LIMIT, WORDS};
 use vtex_format::MAX_ENTRIES_PER_CELL;
 
 /// All paints opaque, or a mask: front to back until nothing behind can show.
@@ -14,7 +16,15 @@ pub(super) fn front<V: Value>(sampler: &Sampler<'_>, first: u32, lookup: &Lookup
     let mut through = 1.0;
     let mut item = first;
     for _ in 0..MAX_ENTRIES_PER_CELL {
-        let entry = Entry::<V>::new(sampler, item, lookup);
+        let covered = coverage(sampler, item, lookup);
+        if covered.item[3] & CONTROL_BIT != 0 {
+            item = passed(&covered);
+            if sampler.is_past(item) {
+                break;
+            }
+            continue;
+        }
+        let entry = Entry::<V>::of(sampler, &covered, lookup);
         let shown = entry.shown();
         item = entry.next;
         value = value.plus(shown.scaled(through));
@@ -24,6 +34,16 @@ pub(super) fn front<V: Value>(sampler: &Sampler<'_>, first: u32, lookup: &Lookup
         }
     }
     value
+}
+
+/// Where a walk goes on behind a test. Twin of the jump in `vtex/clips.wgsl`.
+fn passed(covered: &Covered) -> u32 {
+    let tail = covered.item[3];
+    if flow::jumps(tail, covered.coverage.0) > 0.0 {
+        flow::target(tail, covered.next)
+    } else {
+        covered.next
+    }
 }
 
 /// With translucent paints.
@@ -43,7 +63,15 @@ fn point(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) -> [f32; 4] {
     let mut hit_count = 0;
     let mut item = first;
     for _ in 0..MAX_ENTRIES_PER_CELL {
-        let entry = Entry::<[f32; 4]>::new(sampler, item, lookup);
+        let covered = coverage(sampler, item, lookup);
+        if covered.item[3] & CONTROL_BIT != 0 {
+            item = passed(&covered);
+            if sampler.is_past(item) {
+                break;
+            }
+            continue;
+        }
+        let entry = Entry::<[f32; 4]>::of(sampler, &covered, lookup);
         let shown = entry.shown();
         item = entry.next;
         if shown[3] > 0.0 {

@@ -4,7 +4,7 @@ use vtex_format::{Features, MAX_ENTRIES_PER_CELL};
 
 use super::cell::find;
 use super::coverage::coverage;
-use super::{Lookup, Sampler, footprint};
+use super::{Lookup, Sampler, flow, footprint};
 use crate::layout::{cell, filter, item};
 
 /// Bytes of a fine cell's word.
@@ -61,37 +61,49 @@ impl Sampler<'_> {
 impl LookupCost {
     fn list(&mut self, sampler: &Sampler<'_>, first: u32, lookup: &Lookup) {
         let s = &sampler.settings;
-        // What a translucent ramp shows depends on all that lies behind it.
-        let to_the_end = s.has(Features::TRANSLUCENT) && s.filter != filter::POINT;
+        // What a translucent ramp shows depends on all that lies behind it; so do groups.
+        let translucent = s.has(Features::TRANSLUCENT) && s.filter != filter::POINT;
+        let to_the_end = translucent || s.composited;
         let mut through = 1.0;
         let mut at = first;
         for _ in 0..MAX_ENTRIES_PER_CELL {
             let covered = coverage(sampler, at, lookup);
-            let items = (covered.next - at) / item::WORDS;
             let tail = covered.item[3];
-            self.entries += 1;
-            self.bytes += items * ITEM_BYTES;
-            match tail & item::KIND_MASK {
-                item::CURVES => self.segments += items,
-                item::MSDF => {
-                    self.tiles += 1;
-                    self.bytes += TILE_BYTES;
-                }
-                _ => {}
-            }
+            self.items(tail, (covered.next - at) / item::WORDS);
+            at = covered.next;
             let (inner, ring) = covered.coverage;
-            if inner + ring > 0.0 {
-                let image = tail & item::KIND_MASK == item::IMAGE;
-                self.bytes += if image { IMAGE_BYTES } else { PAINT_BYTES };
-            }
-            if tail & item::OPAQUE_BIT != 0 {
-                through *= 1.0 - inner;
+            if tail & item::CONTROL_BIT != 0 {
+                // What is passed over in part is read.
+                if flow::tests(tail) && flow::jumps(tail, inner) >= 1.0 {
+                    at = flow::target(tail, covered.next);
+                }
+            } else {
+                if inner + ring > 0.0 {
+                    let image = tail & item::KIND_MASK == item::IMAGE;
+                    self.bytes += if image { IMAGE_BYTES } else { PAINT_BYTES };
+                }
+                if tail & item::OPAQUE_BIT != 0 {
+                    through *= 1.0 - inner;
+                }
             }
             let hidden = through <= 0.0 && !to_the_end;
-            if hidden || tail & item::LAST_BIT != 0 || sampler.is_past(covered.next) {
+            if hidden || tail & item::LAST_BIT != 0 || sampler.is_past(at) {
                 break;
             }
-            at = covered.next;
+        }
+    }
+
+    /// The items of an entry with this last word.
+    fn items(&mut self, tail: u32, count: u32) {
+        self.entries += 1;
+        self.bytes += count * ITEM_BYTES;
+        match tail & item::KIND_MASK {
+            item::CURVES => self.segments += count,
+            item::MSDF => {
+                self.tiles += 1;
+                self.bytes += TILE_BYTES;
+            }
+            _ => {}
         }
     }
 }

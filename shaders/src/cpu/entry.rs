@@ -1,6 +1,6 @@
 //! Twin of `vtex/entry_shape.wgsl` and `vtex/entry_outline.wgsl`.
 
-use super::coverage::coverage;
+use super::coverage::{Covered, coverage};
 use super::source::source;
 use super::{Lookup, Sampler, Value};
 
@@ -19,7 +19,11 @@ pub(super) struct Entry<V> {
 
 impl<V: Value> Entry<V> {
     pub(super) fn new(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) -> Self {
-        let covered = coverage(sampler, first, lookup);
+        Self::of(sampler, &coverage(sampler, first, lookup), lookup)
+    }
+
+    /// Of an entry that draws.
+    pub(super) fn of(sampler: &Sampler<'_>, covered: &Covered, lookup: &Lookup) -> Self {
         let mut entry = Self {
             head: covered.item[3],
             next: covered.next,

@@ -5,6 +5,7 @@
 //! Where the WGSL is specialised by choosing modules, the twin asks the header.
 
 mod address;
+mod blend;
 mod cell;
 pub mod color;
 mod composite;
@@ -14,8 +15,11 @@ mod edge;
 mod entry;
 mod fill;
 mod flat;
+mod flow;
 mod footprint;
+mod frames;
 mod gradient;
+mod group;
 mod image;
 mod math;
 mod matrix;
@@ -26,6 +30,7 @@ pub(crate) mod plane;
 mod ramp;
 mod run;
 mod sample;
+mod scopes;
 mod segment;
 mod settings;
 mod source;

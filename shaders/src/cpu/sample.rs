@@ -19,9 +19,14 @@ pub(super) fn sample(sampler: &Sampler<'_>, uv: [f32; 2], axes: [f32; 4]) -> [f3
         width_cells: footprint::width_cells(s.scale, axes),
         q: [0.0; 2],
     };
+    // A mask's groups blend and weigh in colour; alpha is spread last.
+    if s.has(Features::MASK) && !s.composited {
+        return minify::<f32>(sampler, &lookup).result();
+    }
+    let color = minify::<[f32; 4]>(sampler, &lookup).result();
     if s.has(Features::MASK) {
-        minify::<f32>(sampler, &lookup).result()
+        [color[3]; 4]
     } else {
-        minify::<[f32; 4]>(sampler, &lookup).result()
+        color
     }
 }

@@ -4,6 +4,7 @@ use vtex_format::Features;
 
 use super::words::word_of;
 use crate::layout::{header, item, paint};
+use crate::spec::is_composited;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Settings {
@@ -35,6 +36,8 @@ pub(super) struct Settings {
     /// Units of the curve lattice along a cell, and around it.
     pub(super) curve_lattice: [f32; 2],
     pub(super) features: u32,
+    /// Whether lists are walked by `vtex/scopes`, in whose order their items lie.
+    pub(super) composited: bool,
 }
 
 impl Settings {
@@ -67,6 +70,7 @@ impl Settings {
             images: word(header::IMAGES),
             curve_lattice: float2(header::CURVE_UNITS),
             features: word(header::FEATURES),
+            composited: is_composited(word(header::FEATURES)),
         };
         if settings.has(Features::OUTLINE) {
             let index = settings.outline_paint;

@@ -1,7 +1,7 @@
 //! Twin of `vtex/value_*.wgsl`: what a lookup carries, colour or a mask's alpha alone.
 
 use super::math::half_to_f32;
-use super::{Lookup, Sampler, color, composite};
+use super::{Lookup, Sampler, color, composite, scopes};
 use crate::layout::paint;
 use vtex_format::Features;
 
@@ -60,7 +60,9 @@ impl Value for [f32; 4] {
     }
 
     fn composite(sampler: &Sampler<'_>, first: u32, lookup: &Lookup) -> Self {
-        if sampler.settings.has(Features::TRANSLUCENT) {
+        if sampler.settings.composited {
+            scopes::scopes(sampler, first, lookup)
+        } else if sampler.settings.has(Features::TRANSLUCENT) {
             composite::translucent(sampler, first, lookup)
         } else {
             composite::front(sampler, first, lookup)

@@ -1,177 +1,205 @@
-//! The list of a part of a cell, and the items that evaluators walk.
+//! The list of a part of a cell.
 
-use vtex_format::{Entry, EntryKind};
+use vtex_format::{Block, Entry, EntryKind, MAX_ENTRIES_PER_CELL, OPEN_ISOLATED, list_blocks};
 
-use super::outline::{Outline, Region, Segment};
-use crate::layout::item;
+use super::clip::Clip;
+use super::group::{Group, Mask};
+use super::items::{Order, items};
+use super::outline::{Outline, Region};
 
-/// The last item of an entry holds a base winding of four bits.
-const BASE_LIMIT: i32 = 8;
-/// Lower end of the line that stands for a change of the winding: below every lookup.
-const LOWEST: u32 = 0xffff;
-
-/// An entry with its outline, if it has one.
+/// An entry that draws, with its outline if it has one.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Part {
-    entry: Entry,
-    outline: Option<Outline>,
+pub(super) struct Part {
+    pub(super) entry: Entry,
+    pub(super) outline: Option<Outline>,
+}
+
+/// A block of a list, as [`Block`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Node {
+    Draw(Part),
+    Clip(Clip),
+    Group(Group),
 }
 
 /// What shows in a region, front to back.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct List {
-    parts: Vec<Part>,
+    nodes: Vec<Node>,
 }
 
 impl List {
     /// The list of a whole cell; `words` starts at its first entry.
     pub(super) fn decode(words: &[u32], curves: &[u32]) -> Self {
-        let mut list = Self::default();
-        for &words in words.as_chunks::<2>().0 {
+        let mut entries = Vec::new();
+        for &words in words.as_chunks().0 {
             let Some(entry) = Entry::decode(words) else {
                 break;
             };
-            let outline = (entry.kind == EntryKind::Curves)
-                .then(|| curves.get(entry.data as usize..).and_then(Outline::decode))
-                .flatten();
-            list.parts.push(Part { entry, outline });
-            if entry.last {
+            entries.push(entry);
+            if entry.last || entries.len() == MAX_ENTRIES_PER_CELL as usize {
                 break;
             }
         }
-        list
+        let source = Source { entries, curves };
+        let entries = &source.entries;
+        let draws = |at: &usize| entries[*at].kind.draws();
+        let flat = || (0..entries.len()).filter(draws).map(Block::Draw).collect();
+        // What no validator lets in shows without what clips and groups it.
+        let blocks = if (0..entries.len()).all(|at| draws(&at)) {
+            flat()
+        } else {
+            list_blocks(entries).unwrap_or_else(|_| flat())
+        };
+        Self {
+            nodes: source.nodes(&blocks),
+        }
     }
 
     /// Whether a part of the region can have less to show.
     pub(super) fn has_outlines(&self) -> bool {
-        self.parts.iter().any(|part| part.outline.is_some())
+        any_outline(&self.nodes)
     }
 
     /// Items a lookup walks at most.
     pub(super) fn item_count(&self) -> usize {
-        let of = |part: &Part| {
-            let outline = part.outline.as_ref();
-            outline.map_or(1, |o| (o.segments.len() + o.changes.len()).max(1))
-        };
-        self.parts.iter().map(of).sum()
+        item_count(&self.nodes)
     }
 
     /// What shows in `region`, a part of the region this is for.
     pub(super) fn within(&self, region: &Region) -> Self {
-        let mut inner = Self::default();
-        for part in &self.parts {
-            let part = match &part.outline {
-                None => part.clone(),
-                Some(outline) => {
-                    let outline = outline.within(region);
-                    if !outline.is_uniform() {
-                        Part {
-                            entry: part.entry,
-                            outline: Some(outline),
-                        }
-                    } else if outline.base_fills() {
-                        Part {
-                            entry: Entry {
-                                kind: EntryKind::Full,
-                                data: 0,
-                                ..part.entry
-                            },
-                            outline: None,
-                        }
-                    } else {
-                        continue;
-                    }
-                }
-            };
-            let hides = part.entry.kind == EntryKind::Full && part.entry.opaque;
-            inner.parts.push(part);
-            if hides {
-                break;
-            }
+        Self {
+            nodes: within(&self.nodes, region),
         }
-        inner
     }
 
     /// The paint that fills the region, if nothing else shows.
     pub(super) fn solid(&self) -> Option<u32> {
-        match self.parts.as_slice() {
-            [part] if part.entry.kind == EntryKind::Full => Some(part.entry.index),
+        match self.nodes.as_slice() {
+            [Node::Draw(part)] if part.entry.kind == EntryKind::Full => Some(part.entry.index),
             _ => None,
         }
     }
 
     /// Whether nothing shows.
     pub(super) fn is_empty(&self) -> bool {
-        self.parts.is_empty()
+        self.nodes.is_empty()
     }
 
     /// The items, four words each.
-    pub(super) fn items(&self) -> Vec<[u32; 4]> {
-        let mut items = Vec::new();
-        for (index, part) in self.parts.iter().enumerate() {
-            let first = items.len();
-            let mut tail = tail(&part.entry);
-            match &part.outline {
-                None => items.push([part.entry.data, 0, 0, item::GHOST_BIT]),
-                Some(outline) => {
-                    let base = outline.base.clamp(-BASE_LIMIT, BASE_LIMIT - 1);
-                    push_outline(&mut items, outline, outline.base - base);
-                    tail |= (base.cast_unsigned() << item::BASE_RIGHT) >> item::BASE_LEFT;
-                    tail |= if outline.even_odd {
-                        item::EVEN_ODD_BIT
-                    } else {
-                        0
-                    };
-                }
+    pub(super) fn items(&self, order: Order) -> Vec<[u32; 4]> {
+        items(&self.nodes, order)
+    }
+}
+
+pub(super) fn any_outline(nodes: &[Node]) -> bool {
+    nodes.iter().any(|node| match node {
+        Node::Draw(part) => part.outline.is_some(),
+        Node::Clip(clip) => clip.has_outlines(),
+        Node::Group(group) => group.bodies().any(|body| any_outline(body)),
+    })
+}
+
+pub(super) fn item_count(nodes: &[Node]) -> usize {
+    let of = |node: &Node| match node {
+        Node::Draw(part) => part.outline.as_ref().map_or(1, Outline::item_count),
+        Node::Clip(clip) => clip.item_count(),
+        // Each body lies between two items.
+        Node::Group(group) => group.bodies().map(|body| 2 + item_count(body)).sum(),
+    };
+    nodes.iter().map(of).sum()
+}
+
+/// What of `nodes` shows in a region, as far as the first that hides all behind it.
+pub(super) fn within(nodes: &[Node], region: &Region) -> Vec<Node> {
+    let mut inner = Vec::new();
+    for node in nodes {
+        match node {
+            Node::Draw(part) => inner.extend(part.within(region).map(Node::Draw)),
+            Node::Clip(clip) => inner.extend(clip.within(region)),
+            Node::Group(group) => inner.extend(group.within(region)),
+        }
+        if let Some(Node::Draw(part)) = inner.last()
+            && part.entry.kind == EntryKind::Full
+            && part.entry.opaque
+        {
+            break;
+        }
+    }
+    inner
+}
+
+impl Part {
+    fn within(&self, region: &Region) -> Option<Self> {
+        let Some(outline) = &self.outline else {
+            return Some(self.clone());
+        };
+        let outline = outline.within(region);
+        if !outline.is_uniform() {
+            return Some(Self {
+                entry: self.entry,
+                outline: Some(outline),
+            });
+        }
+        let full = Entry {
+            kind: EntryKind::Full,
+            data: 0,
+            ..self.entry
+        };
+        outline.base_fills().then_some(Self {
+            entry: full,
+            outline: None,
+        })
+    }
+}
+
+/// What blocks name.
+struct Source<'a> {
+    entries: Vec<Entry>,
+    curves: &'a [u32],
+}
+
+impl Source<'_> {
+    fn nodes(&self, blocks: &[Block]) -> Vec<Node> {
+        blocks.iter().map(|block| self.node(block)).collect()
+    }
+
+    fn node(&self, block: &Block) -> Node {
+        match block {
+            Block::Draw(at) => {
+                let entry = self.entries[*at];
+                let has_record = entry.kind == EntryKind::Curves;
+                let outline = has_record.then(|| self.outline(*at)).flatten();
+                Node::Draw(Part { entry, outline })
             }
-            if items.len() == first {
-                items.push([0, 0, 0, item::GHOST_BIT]);
+            Block::Clip { tests, body } => {
+                let outline = |at| self.outline(at).unwrap_or_default();
+                let tests = tests.clone();
+                Node::Clip(Clip::new(&self.entries, tests, outline, self.nodes(body)))
             }
-            if index + 1 == self.parts.len() {
-                tail |= item::LAST_BIT;
-            }
-            if let Some(end) = items.last_mut() {
-                end[3] |= tail;
+            Block::Group {
+                masks,
+                open,
+                body,
+                close,
+            } => {
+                let mask = |mask: &vtex_format::MaskBlock| Mask {
+                    kind: self.entries[mask.close].data,
+                    body: self.nodes(&mask.body),
+                };
+                Node::Group(Group {
+                    masks: masks.iter().map(mask).collect(),
+                    isolated: self.entries[*open].data == OPEN_ISOLATED,
+                    body: self.nodes(body),
+                    mode: self.entries[*close].index,
+                    opacity: self.entries[*close].data,
+                })
             }
         }
-        items
     }
-}
 
-fn tail(entry: &Entry) -> u32 {
-    let opaque = if entry.opaque { item::OPAQUE_BIT } else { 0 };
-    (entry.index & item::INDEX_MASK) | kind(entry.kind) | item::END_BIT | opaque
-}
-
-/// `excess` is winding that the last item's base cannot hold.
-fn push_outline(items: &mut Vec<[u32; 4]>, outline: &Outline, excess: i32) {
-    let changes = outline.changes.iter().copied();
-    for (height, change) in std::iter::once((0, excess)).chain(changes) {
-        let line = Segment {
-            points: [height << 16, height << 16, LOWEST << 16],
-            down: change > 0,
-            line: true,
-        };
-        let [a, c, b, tail] = encode(&line);
-        let ghost = [a, c, b, tail | item::GHOST_BIT];
-        items.extend((0..change.unsigned_abs()).map(|_| ghost));
+    fn outline(&self, at: usize) -> Option<Outline> {
+        let place = self.entries[at].data as usize;
+        self.curves.get(place..).and_then(Outline::decode)
     }
-    items.extend(outline.segments.iter().map(encode));
-}
-
-fn kind(kind: EntryKind) -> u32 {
-    match kind {
-        EntryKind::Full => item::FULL,
-        EntryKind::Msdf => item::MSDF,
-        EntryKind::Curves => item::CURVES,
-        EntryKind::Image => item::IMAGE,
-        EntryKind::Test | EntryKind::Open | EntryKind::Close | EntryKind::Mask => item::CONTROL_BIT,
-    }
-}
-
-fn encode(segment: &Segment) -> [u32; 4] {
-    let [a, c, b] = segment.points;
-    let down = if segment.down { item::DOWN_BIT } else { 0 };
-    let line = if segment.line { item::LINE_BIT } else { 0 };
-    [a, c, b, down | line]
 }

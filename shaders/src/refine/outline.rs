@@ -205,6 +205,11 @@ impl Outline {
         self.changes = kept;
     }
 
+    /// Items that it takes at least.
+    pub(super) fn item_count(&self) -> usize {
+        (self.segments.len() + self.changes.len()).max(1)
+    }
+
     /// Whether no lookup of the region meets an edge.
     pub(super) fn is_uniform(&self) -> bool {
         self.segments.is_empty() && self.changes.is_empty()

@@ -2,6 +2,7 @@
 
 use vtex_format::CurveHeader;
 
+use super::items::Order;
 use super::list::List;
 use super::outline::{Outline, Region};
 use crate::layout::item;
@@ -115,7 +116,7 @@ fn parts_of_a_cell_fill_as_the_record_does() {
                 let got = if inner.is_empty() {
                     false
                 } else {
-                    inner.solid().is_some() || fills(&inner.items(), p)
+                    inner.solid().is_some() || fills(&inner.items(Order::FrontToBack), p)
                 };
                 assert_eq!(got, expected, "round {round}, depth {depth}, {p:?}");
                 both[usize::from(expected)] += 1;
@@ -136,7 +137,7 @@ fn a_part_keeps_every_segment_within_its_reach() {
         let inner = outline.within(&region);
         let words: Vec<u32> = {
             let list = List::decode(&entry_words(3), &record).within(&region);
-            list.items().as_flattened().to_vec()
+            list.items(Order::FrontToBack).as_flattened().to_vec()
         };
         for _ in 0..20 {
             let share = |random: &mut Random| f64::from(random.below(1000)) / 1000.0;
@@ -169,7 +170,7 @@ fn windings_beyond_an_item_are_lines_beside_the_cell() {
         };
         let mut words = header.encode().expect("fits").to_vec();
         words.push(1000 | 1 << 16);
-        let items = List::decode(&entry_words(0), &words).items();
+        let items = List::decode(&entry_words(0), &words).items(Order::FrontToBack);
         assert!(items.iter().all(|words| words[3] & item::GHOST_BIT != 0));
         for (y, added) in [(999.0, 0), (1000.0, 1), (4000.0, 1)] {
             let odd = (base_winding + added) & 1 != 0;

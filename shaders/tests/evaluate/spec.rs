@@ -71,7 +71,11 @@ fn code_of_absent_features_is_not_in_the_text() {
         let has = |feature: u32| features & feature != 0;
         let lists = has(Features::LISTS);
         let msdf = lists && has(Features::MSDF);
-        let curves = lists && has(Features::CURVES);
+        let clips = lists && has(Features::CLIPS);
+        let blends = lists && has(Features::BLENDS);
+        let groups = lists && has(Features::GROUPS) || blends;
+        // Tests are curves.
+        let curves = lists && has(Features::CURVES) || clips;
         let images = lists && has(Features::IMAGES);
         // An image's texels may be translucent.
         let translucent = lists && (has(Features::TRANSLUCENT) || images);
@@ -81,32 +85,47 @@ fn code_of_absent_features_is_not_in_the_text() {
         // [SFG22] eq. 2 draws by distance whatever the filter.
         let ramps = edges && (has(Features::RAMPS) || has(Features::OUTLINE));
         let outline = edges && has(Features::OUTLINE);
+        let scopes = groups || clips && ramps;
         let one_walk = !outline && (!translucent || mask) && msdf != curves;
         for (symbol, wanted) in [
-            ("vtex_composite", ramps && !one_walk),
-            ("vtex_hit", lists && !ramps),
+            ("vtex_composite", ramps && !one_walk && !scopes),
+            ("vtex_hit", lists && !ramps && !scopes),
             ("vtex_inside", lists && !ramps),
             ("vtex_msdf_", msdf),
             ("vtex_math_median", msdf),
             ("vtex_curve_", curves),
             ("vtex_segment_winding", curves),
             ("vtex_segment_distance", curves && ramps),
-            ("fn vtex_edge(", ramps && !one_walk),
-            ("vtex_reach_", ramps && one_walk),
+            ("fn vtex_edge(", ramps && (!one_walk || scopes)),
+            ("vtex_reach_", ramps && one_walk && !scopes),
             ("vtex_ramp_", ramps),
             ("vtex_image_", images || has(Features::MIPS)),
             ("vtex_texel", images || has(Features::MIPS)),
             ("_outline", edges && has(Features::OUTLINE)),
-            ("vtex_over", translucent && !mask && ramps),
+            ("vtex_over", ramps && (translucent && !mask || scopes)),
             (
                 "vtex_color_encode",
-                translucent && !mask && (ramps || images),
+                (translucent && !mask || scopes) && (ramps || images),
             ),
-            ("vtex_color_decode", !mask && (translucent || gradients)),
+            (
+                "vtex_color_decode",
+                !mask && (translucent || gradients) || scopes,
+            ),
             ("vtex_gradient", gradients),
-            ("vtex_tint", gradients && translucent && !mask && !ramps),
+            (
+                "vtex_tint",
+                !ramps && (scopes || gradients && translucent && !mask),
+            ),
             ("vtex_matrix_linear", has(Features::TEXTURE_MATRIX)),
-            ("alias VtexValue = f32;", mask),
+            ("alias VtexValue = f32;", mask && !scopes),
+            ("vtex_clips", clips && !scopes),
+            ("vtex_scopes", scopes),
+            ("vtex_frames", scopes),
+            ("vtex_flow_wait", clips && ramps),
+            ("vtex_group_", groups),
+            ("vtex_tone_", groups),
+            ("vtex_blend(", groups),
+            ("vtex_blend_", blends),
             ("vtex_address_axis", false),
         ] {
             assert_eq!(

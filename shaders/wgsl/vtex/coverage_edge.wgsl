@@ -15,3 +15,7 @@ fn vtex_coverage(vt: VtexTexture, first: u32, lookup: VtexLookup) -> VtexCovered
     let coverage = vtex_ramp_coverage(vt, edge.distance, lookup.width_squared);
     return VtexCovered(edge.item, edge.next, coverage);
 }
+
+fn vtex_coverage_of_shape(covered: VtexCovered) -> f32 {
+    return covered.coverage;
+}

@@ -13,3 +13,7 @@ struct VtexCovered {
 fn vtex_coverage(vt: VtexTexture, first: u32, lookup: VtexLookup) -> VtexCovered {
     return VtexCovered(vtex_word4(vt, first), first + VTEX_ITEM_WORDS, 1.0);
 }
+
+fn vtex_coverage_of_shape(covered: VtexCovered) -> f32 {
+    return covered.coverage;
+}

@@ -24,3 +24,7 @@ fn vtex_coverage(vt: VtexTexture, first: u32, lookup: VtexLookup) -> VtexCovered
 fn vtex_coverage_outline_paint(vt: VtexTexture) -> u32 {
     return vtex_word(vt, VTEX_HEADER_OUTLINE_PAINT);
 }
+
+fn vtex_coverage_of_shape(covered: VtexCovered) -> f32 {
+    return covered.coverage.x;
+}

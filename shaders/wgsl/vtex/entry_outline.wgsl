@@ -16,7 +16,10 @@ struct VtexEntry {
 }
 
 fn vtex_entry(vt: VtexTexture, first: u32, lookup: VtexLookup) -> VtexEntry {
-    let covered = vtex_coverage(vt, first, lookup);
+    return vtex_entry_of(vt, vtex_coverage(vt, first, lookup), lookup);
+}
+
+fn vtex_entry_of(vt: VtexTexture, covered: VtexCovered, lookup: VtexLookup) -> VtexEntry {
     let head = covered.item.w;
     let c = covered.coverage;
     var value = VtexValue(0.0);

@@ -13,7 +13,10 @@ struct VtexEntry {
 }
 
 fn vtex_entry(vt: VtexTexture, first: u32, lookup: VtexLookup) -> VtexEntry {
-    let covered = vtex_coverage(vt, first, lookup);
+    return vtex_entry_of(vt, vtex_coverage(vt, first, lookup), lookup);
+}
+
+fn vtex_entry_of(vt: VtexTexture, covered: VtexCovered, lookup: VtexLookup) -> VtexEntry {
     let head = covered.item.w;
     var value = VtexValue(0.0);
     if covered.coverage > 0.0 {

@@ -2,7 +2,7 @@
 //!use vtex/settings
 //!use vtex/address
 //!use vtex/image
-//!use vtex/cells
+//!use vtex/picture
 // Cells up to half a texel of mip 0, the raster chain from one texel on, a fade between.
 
 fn vtex_minify(vt: VtexTexture, lookup: VtexLookup) -> VtexValue {
@@ -15,7 +15,7 @@ fn vtex_minify(vt: VtexTexture, lookup: VtexLookup) -> VtexValue {
     let fade = vtex_image_weight(lod + 1.0);
     var value = VtexValue(0.0);
     if fade < 1.0 {
-        value = (1.0 - fade) * vtex_cells(vt, lookup);
+        value = (1.0 - fade) * vtex_picture(vt, lookup);
     }
     if fade > 0.0 {
         let wraps = vtex_address_wraps(vt);

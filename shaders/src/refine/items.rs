@@ -1,0 +1,182 @@
+//! The items that evaluators walk for a list.
+
+use vtex_format::{Entry, EntryKind};
+
+use super::clip::{Clip, Goal};
+use super::group::Group;
+use super::list::{Node, Part};
+use super::outline::{Outline, Segment};
+use crate::layout::item;
+
+/// The last item of an entry holds a base winding of four bits.
+const BASE_LIMIT: i32 = 8;
+/// Lower end of the line that stands for a change of the winding: below every lookup.
+const LOWEST: u32 = 0xffff;
+
+/// In which order blocks beside each other lie in memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Order {
+    /// For evaluators that stop at what hides the rest.
+    FrontToBack,
+    /// For those that composite groups: each needs what lies behind it first.
+    BackToFront,
+}
+
+/// The items of a list, four words each.
+pub(super) fn items(nodes: &[Node], order: Order) -> Vec<[u32; 4]> {
+    let mut writer = Writer {
+        items: Vec::new(),
+        jumps: Vec::new(),
+        order,
+    };
+    writer.nodes(nodes);
+    writer.finish()
+}
+
+struct Writer {
+    items: Vec<[u32; 4]>,
+    /// Last items of entries that jump, and the items they jump to.
+    jumps: Vec<(usize, usize)>,
+    order: Order,
+}
+
+impl Writer {
+    fn nodes(&mut self, nodes: &[Node]) {
+        match self.order {
+            Order::FrontToBack => nodes.iter().for_each(|node| self.node(node)),
+            Order::BackToFront => nodes.iter().rev().for_each(|node| self.node(node)),
+        }
+    }
+
+    fn node(&mut self, node: &Node) {
+        match node {
+            Node::Draw(part) => self.draw(part),
+            Node::Clip(clip) => self.clip(clip),
+            Node::Group(group) => self.group(group),
+        }
+    }
+
+    fn draw(&mut self, Part { entry, outline }: &Part) {
+        match outline {
+            None => self
+                .items
+                .push([entry.data, 0, 0, item::GHOST_BIT | tail(entry)]),
+            Some(outline) => self.outline(outline, tail(entry)),
+        }
+    }
+
+    /// The items of an outline, of which the last carries `tail`.
+    fn outline(&mut self, outline: &Outline, tail: u32) {
+        let first = self.items.len();
+        let base = outline.base.clamp(-BASE_LIMIT, BASE_LIMIT - 1);
+        push_outline(&mut self.items, outline, outline.base - base);
+        if self.items.len() == first {
+            self.items.push([0, 0, 0, item::GHOST_BIT]);
+        }
+        let base = (base.cast_unsigned() << item::BASE_RIGHT) >> item::BASE_LEFT;
+        let rule = if outline.even_odd {
+            item::EVEN_ODD_BIT
+        } else {
+            0
+        };
+        if let Some(end) = self.items.last_mut() {
+            end[3] |= tail | base | rule;
+        }
+    }
+
+    fn clip(&mut self, clip: &Clip) {
+        let mut places = Vec::new();
+        let mut ends = Vec::new();
+        for test in &clip.tests {
+            places.push(self.items.len());
+            let inside = if test.inside { item::OPAQUE_BIT } else { 0 };
+            let tail = item::END_BIT | item::CONTROL_BIT | inside;
+            match &test.outline {
+                None => self
+                    .items
+                    .push([0, 0, 0, item::GHOST_BIT | item::JUMP | tail]),
+                Some(outline) => self.outline(outline, item::CURVES | tail),
+            }
+            ends.push(self.items.len() - 1);
+        }
+        let body = self.items.len();
+        self.nodes(&clip.body);
+        let end = self.items.len();
+        for (test, last) in clip.tests.iter().zip(ends) {
+            let target = match test.to {
+                Goal::Test(place) => places[place],
+                Goal::Body => body,
+                Goal::End => end,
+            };
+            self.jumps.push((last, target));
+        }
+    }
+
+    fn group(&mut self, group: &Group) {
+        let mut masks = Vec::new();
+        for mask in &group.masks {
+            self.control([1, 0, 0], item::OPEN);
+            self.nodes(&mask.body);
+            masks.push(self.items.len());
+            self.control([mask.kind, 0, 0], item::MASK);
+        }
+        let isolated = u32::from(group.isolated);
+        self.control([isolated, 0, 0], item::OPEN);
+        self.nodes(&group.body);
+        self.control([group.opacity, group.mode, isolated], item::CLOSE);
+        let end = self.items.len();
+        self.jumps.extend(masks.into_iter().map(|mask| (mask, end)));
+    }
+
+    fn control(&mut self, [x, y, z]: [u32; 3], op: u32) {
+        let tail = item::GHOST_BIT | item::END_BIT | item::CONTROL_BIT | op;
+        self.items.push([x, y, z, tail]);
+    }
+
+    fn finish(mut self) -> Vec<[u32; 4]> {
+        let count = self.items.len();
+        for (from, to) in self.jumps {
+            let over = if to < count { to - from - 1 } else { 0 };
+            let over = u32::try_from(over).unwrap_or(0) & item::INDEX_MASK;
+            self.items[from][3] |= over;
+        }
+        if let Some(last) = self.items.last_mut() {
+            last[3] |= item::LAST_BIT;
+        }
+        self.items
+    }
+}
+
+fn tail(entry: &Entry) -> u32 {
+    let opaque = if entry.opaque { item::OPAQUE_BIT } else { 0 };
+    let kind = match entry.kind {
+        EntryKind::Msdf => item::MSDF,
+        EntryKind::Curves => item::CURVES,
+        EntryKind::Image => item::IMAGE,
+        _ => item::FULL,
+    };
+    (entry.index & item::INDEX_MASK) | kind | item::END_BIT | opaque
+}
+
+/// `excess` is winding that the last item's base cannot hold.
+fn push_outline(items: &mut Vec<[u32; 4]>, outline: &Outline, excess: i32) {
+    let changes = outline.changes.iter().copied();
+    for (height, change) in std::iter::once((0, excess)).chain(changes) {
+        let line = Segment {
+            points: [height << 16, height << 16, LOWEST << 16],
+            down: change > 0,
+            line: true,
+        };
+        let [a, c, b, tail] = encode(&line);
+        let ghost = [a, c, b, tail | item::GHOST_BIT];
+        items.extend((0..change.unsigned_abs()).map(|_| ghost));
+    }
+    items.extend(outline.segments.iter().map(encode));
+}
+
+fn encode(segment: &Segment) -> [u32; 4] {
+    let [a, c, b] = segment.points;
+    let down = if segment.down { item::DOWN_BIT } else { 0 };
+    let line = if segment.line { item::LINE_BIT } else { 0 };
+    [a, c, b, down | line]
+}

@@ -1,0 +1,6 @@
+//!use vtex/frames
+// A list without groups.
+
+fn vtex_group(frames: ptr<function, VtexFrames>, item: vec4u) -> bool {
+    return false;
+}

@@ -1,0 +1,189 @@
+//! Random trees of clips, groups and masks: as a file's lists, and as what they are to show.
+//!
+//! The evaluators walk lists; the reference here never sees one, so that what encodes trees and
+//! what walks lists are held against each other.
+
+mod blend;
+mod encode;
+mod reference;
+mod tree;
+
+use vtex_format::{
+    CellWord, CurveHeader, CurveLattice, Grid, Meta, PaintRecord, SHADER_ABI, SamplerSettings,
+    ShaderBlob, SpecKey, VtexFile, list_frames,
+};
+
+use crate::random::Random;
+pub use reference::Lens;
+pub use tree::{Clip, Group, Mask, Node, Part, Scope, Wants};
+
+/// Lattice steps along a cell: the unit of ramps.
+pub const TEXELS_PER_CELL: u32 = 4;
+/// How far records reach, in cells.
+pub const REACH_CELLS: f32 = 0.25;
+
+/// A row of cells, each with a tree of its own.
+#[derive(Clone, Debug)]
+pub struct Drawing {
+    /// What shows in each cell, back to front.
+    pub cells: Vec<Vec<Node>>,
+    /// Straight, sRGB-encoded colours.
+    pub paints: Vec<[f32; 4]>,
+    /// Curve records, in units of a cell's box.
+    pub records: Vec<Vec<u32>>,
+}
+
+impl Drawing {
+    /// A drawing of `cells` random trees of what `wants` names.
+    ///
+    /// # Panics
+    /// Never: some tree is shallow enough.
+    pub fn random(seed: u64, cells: u32, wants: Wants) -> Self {
+        let mut r = Random::new(seed);
+        let records = (0..8).map(|_| random_record(&mut r)).collect();
+        let paints = (0..8).map(|_| random_paint(&mut r)).collect();
+        let tree = |_| loop {
+            let nodes = tree::random_nodes(&mut r, wants, 4);
+            if list_frames(&encode::entries(&nodes, &[0; 8])).is_ok() {
+                return nodes;
+            }
+        };
+        Self {
+            cells: (0..cells).map(tree).collect(),
+            paints,
+            records,
+        }
+    }
+
+    /// The drawing as a file.
+    ///
+    /// # Panics
+    /// When a tree is too large for a list.
+    #[expect(clippy::cast_precision_loss, reason = "few cells")]
+    pub fn file(&self) -> VtexFile {
+        let columns = u32::try_from(self.cells.len()).expect("few cells");
+        let mut file = empty_file([columns as f32, 1.0]);
+        file.meta.grid.size_cells = [columns, 1];
+        file.meta.curve_lattice = Some(lattice());
+        let solid = |color: &[f32; 4]| PaintRecord::solid(*color);
+        file.paints = self.paints.iter().map(solid).collect();
+        let mut places = Vec::new();
+        for record in &self.records {
+            places.push(u32::try_from(file.curves.len()).expect("short records"));
+            file.curves.extend(record);
+        }
+        for nodes in &self.cells {
+            let mut entries = encode::entries(nodes, &places);
+            for entry in entries.iter_mut().filter(|entry| entry.kind.draws()) {
+                entry.opaque = self.paints[entry.index as usize][3] >= 1.0;
+            }
+            let offset_words = u32::try_from(file.entries.len()).expect("short lists");
+            let cell = match entries.last_mut() {
+                None => CellWord::Empty,
+                Some(last) => {
+                    last.last = true;
+                    CellWord::List { offset_words }
+                }
+            };
+            file.cells.push(cell.encode().expect("short lists"));
+            let words = entries
+                .iter()
+                .flat_map(|entry| entry.encode().expect("sound"));
+            file.entries.extend(words);
+        }
+        file.spec = SpecKey::for_file(&file);
+        file
+    }
+}
+
+/// The lattice of all records.
+///
+/// # Panics
+/// Never: the reach is in range.
+pub fn lattice() -> CurveLattice {
+    CurveLattice::new(REACH_CELLS).expect("in range")
+}
+
+fn empty_file(scale: [f32; 2]) -> VtexFile {
+    VtexFile {
+        meta: Meta {
+            canvas_size: scale,
+            grid: Grid {
+                size_cells: [1, 1],
+                cell_from_uv_scale: scale,
+                cell_from_uv_offset: [0.0; 2],
+                texels_per_cell: TEXELS_PER_CELL,
+            },
+            distance_range_texels: 4.0,
+            max_zoom: 1.0,
+            sampler: SamplerSettings::default(),
+            curve_lattice: None,
+        },
+        spec: bytemuck::Zeroable::zeroed(),
+        shader: ShaderBlob {
+            abi: SHADER_ABI,
+            wgsl_fragment: String::new(),
+            batch_spirv: Vec::new(),
+        },
+        paints: Vec::new(),
+        gradients: Vec::new(),
+        shapes: Vec::new(),
+        layers: Vec::new(),
+        cells: Vec::new(),
+        entries: Vec::new(),
+        curves: Vec::new(),
+        sources: None,
+        tiles: Vec::new(),
+        images: Vec::new(),
+        provenance: None,
+    }
+}
+
+fn random_paint(r: &mut Random) -> [f32; 4] {
+    let alpha = if r.below(2) == 0 {
+        1.0
+    } else {
+        r.between(0.2, 0.9)
+    };
+    [(); 3].map(|()| r.between(0.02, 0.98)).into_rgba(alpha)
+}
+
+trait IntoRgba {
+    fn into_rgba(self, alpha: f32) -> [f32; 4];
+}
+
+impl IntoRgba for [f32; 3] {
+    fn into_rgba(self, alpha: f32) -> [f32; 4] {
+        [self[0], self[1], self[2], alpha]
+    }
+}
+
+/// A closed polygon of three to five corners anywhere in the box.
+fn random_record(r: &mut Random) -> Vec<u32> {
+    let units = lattice().box_units();
+    let corners: Vec<[u32; 2]> = (0..3 + r.below(3))
+        .map(|_| [(); 2].map(|()| r.below(units + 1)))
+        .collect();
+    polygon_record(&corners)
+}
+
+/// The record of the closed polygon through `corners`, in units of a cell's box.
+///
+/// # Panics
+/// Never: a polygon has few corners.
+pub fn polygon_record(corners: &[[u32; 2]]) -> Vec<u32> {
+    let mut runs = [const { Vec::new() }; 2];
+    for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        let down = to[1] > from[1];
+        let [a, b] = if down { [from, to] } else { [to, from] };
+        runs[usize::from(!down)].extend([a, b].map(|[x, y]| x | y << 16));
+    }
+    let count = |words: &Vec<u32>| u32::try_from(words.len() / 2).expect("few corners");
+    let header = CurveHeader {
+        line_count: count(&runs[0]) + count(&runs[1]),
+        down_line_count: count(&runs[0]),
+        ..CurveHeader::default()
+    };
+    let head = header.encode().expect("few corners");
+    [&head[..], &runs[0], &runs[1]].concat()
+}
