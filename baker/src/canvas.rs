@@ -4,7 +4,7 @@
 //! opaque shapes abut it lets the ground through.
 
 use rayon::prelude::*;
-use vtex_format::{AddressMode, Image, VtexFile};
+use vtex_format::{AddressMode, Image, PaintRecord, VtexFile};
 use vtex_shaders::{FilterMode, PackOptions, cpu::Sampler, pack};
 
 use crate::config::Mode;
@@ -102,8 +102,9 @@ fn cell_mips(file: &mut VtexFile, size: [u32; 2]) -> Image {
     let mask = std::mem::take(&mut file.meta.sampler.mask);
     let mut image = mips::chain(picture(file, size), WHOLE);
     file.meta.sampler.mask = mask;
-    // A patch may hold gradients, which steps of a few codes would turn into bands.
-    if file.images.len() == 1 {
+    // Steps of a few codes would turn gradients, which a patch may hold too, into bands.
+    let gradients = file.paints.iter().any(PaintRecord::is_gradient);
+    if file.images.len() == 1 && !gradients {
         image
             .mips
             .par_iter_mut()

@@ -89,7 +89,13 @@ mod tests {
         let sharp = image(|x, y| if x + y < 0.8 { [1.0; 4] } else { [0.0; 4] });
         assert_eq!(super::fitted(sharp.clone()), sharp);
         // One texel of detail is enough to keep them all.
-        let dot = image(|x, y| if x == 0.5 && y == 0.5 { [1.0; 4] } else { [0.0; 4] });
+        let dot = image(|x, y| {
+            if x == 0.5 && y == 0.5 {
+                [1.0; 4]
+            } else {
+                [0.0; 4]
+            }
+        });
         assert_eq!(super::fitted(dot.clone()), dot);
     }
 }

@@ -41,6 +41,7 @@ mod grid;
 mod judge;
 mod mips;
 mod msdf;
+mod native;
 mod paint;
 mod paint_table;
 mod painter;
@@ -74,6 +75,8 @@ pub use svg::font_selector;
 
 #[cfg(test)]
 mod corpus_tests;
+#[cfg(test)]
+mod gradient_tests;
 #[cfg(test)]
 mod picture_tests;
 

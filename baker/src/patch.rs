@@ -2,7 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use kurbo::Rect;
+use kurbo::{Affine, Rect};
 use rayon::prelude::*;
 use tiny_skia::{Pixmap, Transform};
 use vtex_format::{Warning, WarningCode};
@@ -60,7 +60,10 @@ pub(crate) fn resolve(
         .map(|step| match step {
             Step::Shape(shape) => Outcome::Item(Item::Shape(shape)),
             Step::Clip(clip) => Outcome::Item(Item::Clip(clip)),
-            Step::Raster(subtree) => settings.paint_alone(&subtree, density),
+            Step::Raster(subtree) => match settings.paint_native(&subtree) {
+                Some(patch) => Outcome::Item(Item::Patch(patch)),
+                None => settings.paint_alone(&subtree, density),
+            },
         })
         .collect();
     let mut items = Vec::with_capacity(painted.len());
@@ -212,6 +215,7 @@ impl PatchSettings {
             .steps
             .iter()
             .filter_map(|step| match step {
+                Step::Raster(s) if s.native.is_some() => None,
                 Step::Raster(s) => Some((s.bounds.intersect(self.canvas()), self.density_limit(s))),
                 Step::Shape(_) | Step::Clip(_) => None,
             })
@@ -301,6 +305,11 @@ impl PatchSettings {
         }
     }
 
+    /// An image with its own texels.
+    fn paint_native(self, subtree: &Subtree<'_>) -> Option<Patch> {
+        subtree.native?.patch(subtree, self.canvas_size)
+    }
+
     fn paint_alone(self, subtree: &Subtree<'_>, density: f64) -> Outcome {
         let density = density.min(self.density_limit(subtree));
         let lattice = self.lattice(density);
@@ -364,18 +373,26 @@ fn narrow(value: f64) -> f32 {
 }
 
 /// Paints one node with its ancestors' transform; `None` when resvg panics.
-#[expect(clippy::cast_possible_truncation, reason = "tiny-skia works in f32")]
 fn paint_node(subtree: &Subtree<'_>, view: View, pixmap: &mut Pixmap) -> Option<()> {
-    let Some(bbox) = subtree.node.abs_layer_bounding_box() else {
+    let texel_from_parent = view.texel_from_canvas() * subtree.canvas_from_parent;
+    paint_node_by(subtree.node, texel_from_parent, pixmap)
+}
+
+/// Paints one node, whose parent's space is mapped to texels; `None` when resvg panics.
+#[expect(clippy::cast_possible_truncation, reason = "tiny-skia works in f32")]
+pub(crate) fn paint_node_by(
+    node: &usvg::Node,
+    texel_from_parent: Affine,
+    pixmap: &mut Pixmap,
+) -> Option<()> {
+    let Some(bbox) = node.abs_layer_bounding_box() else {
         return Some(());
     };
-    let [a, b, c, d, e, f] = (view.texel_from_canvas() * subtree.canvas_from_parent)
-        .as_coeffs()
-        .map(|v| v as f32);
+    let [a, b, c, d, e, f] = texel_from_parent.as_coeffs().map(|v| v as f32);
     // `render_node` moves the node's box to the origin; this moves it back.
     let transform = Transform::from_row(a, b, c, d, e, f).pre_translate(bbox.x(), bbox.y());
     catch_unwind(AssertUnwindSafe(|| {
-        resvg::render_node(subtree.node, transform, &mut pixmap.as_mut());
+        resvg::render_node(node, transform, &mut pixmap.as_mut());
     }))
     .ok()
 }

@@ -293,16 +293,6 @@ fn only_pixels_become_a_patch_in_its_place() {
                     stop-color='blue' stop-opacity='.3'/></linearGradient>";
     let cases = [
         (
-            "linearGradient",
-            format!("{gradient}<rect x='30' y='30' width='120' height='130' fill='url(#g)'/>"),
-        ),
-        (
-            "radialGradient",
-            "<radialGradient id='r'><stop stop-color='red'/><stop offset='1'/></radialGradient>\
-             <g transform='rotate(20)'><circle cx='110' cy='70' r='50' fill='url(#r)'/></g>"
-                .to_owned(),
-        ),
-        (
             "pattern",
             "<pattern id='p' width='25' height='25' patternUnits='userSpaceOnUse'><circle cx='10' \
              cy='10' r='6'/></pattern><rect x='20' y='20' width='150' height='150' \

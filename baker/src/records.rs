@@ -152,7 +152,12 @@ pub(crate) fn provenance(
         source_hash,
         tool: concat!("vtex-baker ", env!("CARGO_PKG_VERSION")).into(),
         options: options(config),
-        shapes: drawing.items.iter().zip(placed).filter_map(report).collect(),
+        shapes: drawing
+            .items
+            .iter()
+            .zip(placed)
+            .filter_map(report)
+            .collect(),
         warnings,
     }
 }

@@ -18,6 +18,7 @@ mod walk;
 use kurbo::{Affine, Rect};
 
 use crate::drawing::{ClipOutline, Shape};
+use crate::native::Native;
 use crate::tree::Tree;
 
 pub(crate) use cost::Cost;
@@ -56,6 +57,8 @@ pub(crate) struct Subtree<'a> {
     pub(crate) canvas_from_parent: Affine,
     /// What it may touch, in canvas space; not empty, may reach outside the canvas.
     pub(crate) bounds: Rect,
+    /// Its own texels, where it is an image that can keep them.
+    pub(crate) native: Option<Native>,
     /// Why it is not geometry.
     pub(crate) feature: &'static str,
     /// `id` of the element or its nearest named ancestor, may be empty.

@@ -154,6 +154,7 @@ fn solid_words(paint: &PaintRecord) -> [u32; 8] {
     [rgb[0], rgb[1], rgb[2], a, r, g, b, a].map(f32::to_bits)
 }
 
+#[expect(clippy::cast_possible_truncation, reason = "evaluators work in f32")]
 fn gradient_words(words: &mut Vec<u32>, stored: &Gradient) {
     let spread = (stored.spread as u32) << gradient::SPREAD_MASK.trailing_zeros();
     let about = word_index(stored.stops.len()) | spread;

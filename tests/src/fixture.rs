@@ -2,8 +2,8 @@
 
 use vtex_format::{
     AddressMode, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CellWord, CurveHeader, CurveLattice, Entry,
-    EntryKind, Features, Grid, Image, Meta, Outline, PaintRecord, SHADER_ABI, SamplerSettings,
-    ShaderBlob, SpecKey, VtexFile,
+    EntryKind, Features, Gradient, GradientShape, GradientStop, Grid, Image, Meta, Outline,
+    PaintRecord, SHADER_ABI, SamplerSettings, ShaderBlob, SpecKey, Spread, VtexFile,
 };
 
 use crate::random::Random;
@@ -16,6 +16,8 @@ const ADDRESS_MODES: [AddressMode; 4] = [
 ];
 const DISTANCE_RANGE_TEXELS: f32 = 4.0;
 const PAINTS: u32 = 12;
+/// Those of them that are solid where some are gradients.
+const SOLIDS: u32 = 4;
 const TILES: u32 = 40;
 const RECORDS: u32 = 40;
 
@@ -68,6 +70,12 @@ pub fn random_texture(seed: u64, features: u32) -> VtexFile {
         images: Vec::new(),
         provenance: None,
     };
+    if has(Features::GRADIENTS) {
+        for paint in &mut file.paints[SOLIDS as usize..] {
+            let gradient = random_gradient(r, has(Features::TRANSLUCENT));
+            *paint = gradient.store(&mut file.gradients);
+        }
+    }
     let mut records = Vec::new();
     if has(Features::MIPS) {
         file.images
@@ -122,7 +130,11 @@ fn random_settings(r: &mut Random, features: u32) -> SamplerSettings {
         mask: has(Features::MASK),
         outline: has(Features::OUTLINE).then(|| Outline {
             width_texels: r.between(0.2, 1.2),
-            paint: r.below(PAINTS),
+            paint: r.below(if has(Features::GRADIENTS) {
+                SOLIDS
+            } else {
+                PAINTS
+            }),
         }),
         ..SamplerSettings::default()
     };
@@ -139,6 +151,36 @@ fn random_paint(r: &mut Random, translucent: bool) -> PaintRecord {
         1.0
     };
     PaintRecord::solid([r.unit(), r.unit(), r.unit(), alpha])
+}
+
+/// Of any shape and spread, of one stop or a hundred; opaque unless `translucent`.
+fn random_gradient(r: &mut Random, translucent: bool) -> Gradient {
+    let shape = match r.below(3) {
+        0 => GradientShape::Linear {
+            t_from_uv: [(); 3].map(|()| r.between(-3.0, 3.0)),
+        },
+        kind => GradientShape::Radial {
+            circle_from_uv: [(); 6].map(|()| r.between(-2.0, 2.0)),
+            distance: [0.0, r.between(0.0, if translucent { 2.0 } else { 0.6 })][kind as usize - 1],
+            focal_radius: [0.0, r.between(0.0, 0.4)][r.below(2) as usize],
+        },
+    };
+    let count = [1, 2, 2, 3, 4, 5, 8, 9, 17, 100][r.below(10) as usize];
+    let mut offsets: Vec<f32> = (0..count).map(|_| r.unit()).collect();
+    offsets.sort_by(f32::total_cmp);
+    if count > 4 {
+        offsets[2] = offsets[1];
+    }
+    let stop = |offset| GradientStop {
+        offset,
+        color: random_paint(r, translucent).color,
+    };
+    let stops = offsets.into_iter().map(stop).collect();
+    Gradient {
+        shape,
+        spread: [Spread::Pad, Spread::Reflect, Spread::Repeat][r.below(3) as usize],
+        stops,
+    }
 }
 
 fn random_byte(r: &mut Random) -> u8 {

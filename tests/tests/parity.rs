@@ -41,7 +41,7 @@ const COLOR: u32 = Features::LISTS | Features::MSDF;
 const SCOPES: u32 = Features::CLIPS | Features::GROUPS | Features::BLENDS;
 
 /// Feature sets that between them reach every other module of the evaluator.
-const CASES: [(&str, u32); 14] = [
+const CASES: [(&str, u32); 19] = [
     ("solid", 0),
     ("full", LISTS | Features::TRANSLUCENT),
     ("opaque", COLOR),
@@ -69,6 +69,20 @@ const CASES: [(&str, u32); 14] = [
     (
         "mask",
         COLOR | Features::IMAGES | Features::MASK | Features::MIPS | Features::OUTLINE,
+    ),
+    ("gradients-solid", Features::GRADIENTS),
+    ("gradients-opaque", CURVES | Features::GRADIENTS),
+    (
+        "gradients-translucent",
+        CURVES | Features::GRADIENTS | Features::TRANSLUCENT,
+    ),
+    (
+        "gradients-images",
+        COLOR | Features::GRADIENTS | Features::IMAGES | Features::TRANSLUCENT,
+    ),
+    (
+        "gradients-mask",
+        CURVES | Features::GRADIENTS | Features::TRANSLUCENT | Features::MASK,
     ),
     (
         "all",

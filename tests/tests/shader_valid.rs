@@ -83,13 +83,14 @@ fn keys_that_no_file_should_have_still_make_a_shader() {
 }
 
 /// Ends of loops.
-const BOUNDS: [&str; 6] = [
+const BOUNDS: [&str; 7] = [
     "i < VTEX_KEY_FRAMES; i += 1u",
     "i < VTEX_KEY_MAX_ENTRIES; i += 1u",
     "i < 2u * VTEX_KEY_MAX_ENTRIES; i += 1u",
     "i < VTEX_ITEM_LIMIT; i += 1u",
     "i < VTEX_CURVE_NEWTON_STEPS; i++",
     "i < VTEX_IMAGE_TAPS; i += 1u",
+    "i < VTEX_GRADIENT_SEARCH_STEPS; i += 1u",
 ];
 
 #[test]

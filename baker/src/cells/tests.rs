@@ -13,10 +13,11 @@ use crate::{
     grid::Lattice,
     judge::{Coverage, Verdict},
     placed::{Placed, PlacedKind, place},
-    tree::Tree,
     testing::{
-        Evaluator, Random, corpus_file, corpus_root, drawing_of, random_outline, shape, solid,
+        Evaluator, Random, corpus_file, corpus_root, drawing_of, paint_at, random_outline, shape,
+        stored_at,
     },
+    tree::Tree,
 };
 
 fn bake(drawing: Drawing, config: &BakeConfig) -> VtexFile {
@@ -88,18 +89,18 @@ fn compare_lists(drawing: &Drawing, file: &VtexFile, config: &BakeConfig, points
             if let PlacedKind::Shape { paint, .. } = &item.kind
                 && item.region.contains(p)
             {
-                crate::testing::under(&mut truth, solid(paint));
+                crate::testing::under(&mut truth, paint_at(paint, uv));
             }
         }
         let mut listed = [0.0; 4];
         if let CellWord::Solid { paint } = word {
-            crate::testing::under(&mut listed, file.paints[paint as usize].color);
+            crate::testing::under(&mut listed, stored_at(file, paint, uv));
         }
         for entry in &entries {
             let covered = entry.kind == EntryKind::Full
                 || tile_contains(file, &placed, entry.data, entry.index, p);
             if covered {
-                crate::testing::under(&mut listed, file.paints[entry.index as usize].color);
+                crate::testing::under(&mut listed, stored_at(file, entry.index, uv));
             }
         }
         let wrong = truth.iter().zip(&listed).any(|(a, b)| (a - b).abs() > 1e-5);
@@ -299,11 +300,16 @@ fn merged_shapes_share_a_layer_and_are_warned_about() {
 #[test]
 fn an_outline_widens_range_and_lists() {
     let circle = kurbo::Circle::new((50.0, 40.0), 20.0).to_path(1e-3);
-    let drawing = || Drawing::flat([100.0, 80.0], vec![shape(
-            circle.clone(),
-            FillRule::NonZero,
-            [1.0, 0.0, 0.0, 1.0],
-        )]);
+    let drawing = || {
+        Drawing::flat(
+            [100.0, 80.0],
+            vec![shape(
+                circle.clone(),
+                FillRule::NonZero,
+                [1.0, 0.0, 0.0, 1.0],
+            )],
+        )
+    };
     let config = BakeConfig {
         msdf_size: 128,
         outline_texels: Some(6.0),

@@ -100,9 +100,8 @@ impl<'a> Unit<'a> {
         match self {
             Self::Entry(draft) => draft.hides(paints),
             Self::Scope(scope) => {
-                let plain = |group: &GroupDraft| {
-                    group.opacity >= 1.0 && group.blend == BlendMode::Normal
-                };
+                let plain =
+                    |group: &GroupDraft| group.opacity >= 1.0 && group.blend == BlendMode::Normal;
                 scope.tests.is_empty()
                     && scope.masks.is_empty()
                     && scope.group.as_ref().is_none_or(plain)

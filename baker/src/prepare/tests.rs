@@ -332,7 +332,10 @@ fn what_cannot_be_prepared_is_baked_as_drawn() {
         }
     }
     outline.close_path();
-    let drawing = Drawing::flat([CANVAS; 2], vec![shape(outline, FillRule::NonZero, [0.0, 0.0, 0.0, 1.0])]);
+    let drawing = Drawing::flat(
+        [CANVAS; 2],
+        vec![shape(outline, FillRule::NonZero, [0.0, 0.0, 0.0, 1.0])],
+    );
     let config = BakeConfig {
         mode: Mode::Msdf,
         msdf_size: 256,

@@ -157,7 +157,12 @@ mod tests {
         assert_eq!(of("M1 2H5V9H1z"), expected);
         assert_eq!(of("M1 2V9H5V2H1z"), expected);
         assert_eq!(of("M5 9H1V2H5z"), expected);
-        for other in ["M1 2H5V9z", "M1 2H5L6 9H1z", "M1 2H5V9H1zM0 0h1v1z", "M1 2Q3 2 5 2V9H1z"] {
+        for other in [
+            "M1 2H5V9z",
+            "M1 2H5L6 9H1z",
+            "M1 2H5V9H1zM0 0h1v1z",
+            "M1 2Q3 2 5 2V9H1z",
+        ] {
             assert_eq!(of(other), None, "{other}");
         }
     }

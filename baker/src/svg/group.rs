@@ -6,8 +6,8 @@ use vtex_format::{self as format, MaskKind};
 
 use crate::drawing::FillRule;
 use crate::svg::path::affine;
-use crate::svg::walk::{Place, Walker};
 use crate::svg::recolor::Recolor;
+use crate::svg::walk::{Place, Walker};
 use crate::tree::{self, Clip, Mask, Scope};
 
 /// What is done to a group as a whole.
@@ -119,7 +119,12 @@ impl<'a> Walker<'a, '_> {
     }
 
     /// A mask and the masks on it, of which each fades the group by itself.
-    fn mask(&mut self, mask: &'a usvg::Mask, place: Place<'a>, effects: &mut Effects) -> Option<()> {
+    fn mask(
+        &mut self,
+        mask: &'a usvg::Mask,
+        place: Place<'a>,
+        effects: &mut Effects,
+    ) -> Option<()> {
         if let Some(outer) = mask.mask() {
             self.mask(outer, place, effects)?;
         }
@@ -132,7 +137,9 @@ impl<'a> Walker<'a, '_> {
         .map(f64::from);
         let area = kurbo::Rect::new(x0, y0, x1, y1).to_path(0.1);
         let outline = place.canvas_from_user * area;
-        effects.clips.extend(self.clip_to(outline, FillRule::NonZero)?);
+        effects
+            .clips
+            .extend(self.clip_to(outline, FillRule::NonZero)?);
         let first = self.next_item();
         let place = Place {
             opacity: 1.0,
@@ -171,9 +178,7 @@ fn clip_depth(clip: &usvg::ClipPath) -> u32 {
 
 fn nested_clip_depth(group: &Group) -> u32 {
     let depth = |node: &Node| match node {
-        Node::Group(inner) => {
-            inner.clip_path().map_or(0, clip_depth) + nested_clip_depth(inner)
-        }
+        Node::Group(inner) => inner.clip_path().map_or(0, clip_depth) + nested_clip_depth(inner),
         _ => 0,
     };
     group.children().iter().map(depth).max().unwrap_or(0)
@@ -187,9 +192,7 @@ fn blends(group: &Group) -> bool {
 /// Whether something in the group blends with what is behind it inside the group.
 pub(super) fn holds_open_blend(group: &Group) -> bool {
     group.children().iter().any(|node| match node {
-        Node::Group(child) => {
-            blends(child) || (!child.should_isolate() && holds_open_blend(child))
-        }
+        Node::Group(child) => blends(child) || (!child.should_isolate() && holds_open_blend(child)),
         _ => false,
     })
 }

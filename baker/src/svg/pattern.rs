@@ -35,13 +35,17 @@ impl Tiles {
     fn under(pattern: &Pattern, canvas_from_user: Affine, bounds: Rect) -> Option<Self> {
         let canvas_from_pattern = canvas_from_user * affine(pattern.transform());
         let rect = transformed_bounds(pattern.rect().to_rect(), Affine::IDENTITY);
-        let sound = canvas_from_pattern.determinant().abs() > 0.0 && canvas_from_pattern.is_finite();
+        let sound =
+            canvas_from_pattern.determinant().abs() > 0.0 && canvas_from_pattern.is_finite();
         if !sound || bounds.area() <= 0.0 {
             return None;
         }
         let area = canvas_from_pattern.inverse().transform_rect_bbox(bounds);
         let span = |low: f64, high: f64, origin: f64, size: f64| {
-            [((low - origin) / size).floor(), ((high - origin) / size).ceil()]
+            [
+                ((low - origin) / size).floor(),
+                ((high - origin) / size).ceil(),
+            ]
         };
         Some(Self {
             canvas_from_pattern,
@@ -89,7 +93,10 @@ impl<'a> Walker<'a, '_> {
             usvg::Paint::Pattern(pattern) => {
                 let tiles = Tiles::under(pattern, place.canvas_from_user, shown);
                 let deep = place.deeper(FRAMES).is_none();
-                !deep && tiles.is_none_or(|tiles| tiles.count() * weight(pattern.root(), LEVELS) <= MAX_ELEMENTS)
+                !deep
+                    && tiles.is_none_or(|tiles| {
+                        tiles.count() * weight(pattern.root(), LEVELS) <= MAX_ELEMENTS
+                    })
             }
             _ => true,
         })
@@ -167,7 +174,9 @@ impl<'a> Walker<'a, '_> {
             isolated: holds_open_blend(pattern.root()),
             ..Effects::default()
         };
-        self.scope(first, effects, |walker| walker.children(pattern.root(), place));
+        self.scope(first, effects, |walker| {
+            walker.children(pattern.root(), place)
+        });
     }
 
     /// Content that is plain shapes of solid colours: the same shape of all tiles is one outline,

@@ -178,13 +178,26 @@ mod tests {
 
     #[test]
     fn saturation_and_hue_mix_channels() {
-        let grey = recolored("<feColorMatrix type='saturate' values='0'/>", [1.0, 0.0, 0.0, 0.5]);
+        let grey = recolored(
+            "<feColorMatrix type='saturate' values='0'/>",
+            [1.0, 0.0, 0.0, 0.5],
+        );
         assert_eq!(grey, Some([0.213, 0.213, 0.213, 0.5]));
-        let turned = recolored("<feColorMatrix type='hueRotate' values='120'/>", [1.0, 0.0, 0.0, 1.0]);
+        let turned = recolored(
+            "<feColorMatrix type='hueRotate' values='120'/>",
+            [1.0, 0.0, 0.0, 1.0],
+        );
         let [r, g, b, _] = turned.unwrap();
         assert!(g > 0.4 && r < 0.1 && b < 0.1, "{turned:?}");
-        let same = recolored("<feColorMatrix type='hueRotate' values='0'/>", [0.2, 0.3, 0.4, 1.0]);
-        let off = same.unwrap().into_iter().zip([0.2, 0.3, 0.4, 1.0]).map(|(a, b)| (a - b).abs());
+        let same = recolored(
+            "<feColorMatrix type='hueRotate' values='0'/>",
+            [0.2, 0.3, 0.4, 1.0],
+        );
+        let off = same
+            .unwrap()
+            .into_iter()
+            .zip([0.2, 0.3, 0.4, 1.0])
+            .map(|(a, b)| (a - b).abs());
         assert!(off.fold(0.0, f32::max) < 1e-6);
     }
 

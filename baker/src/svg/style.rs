@@ -1,7 +1,7 @@
 //! What usvg says about strokes, in the baker's terms.
 
-use kurbo::{Cap, Join};
 use crate::stroke::StrokeStyle;
+use kurbo::{Cap, Join};
 
 /// Everything about a stroke but its paint.
 pub(crate) fn stroke_style(stroke: &usvg::Stroke) -> StrokeStyle {

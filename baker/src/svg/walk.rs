@@ -6,11 +6,12 @@ use vtex_format::{MAX_FRAMES, WarningCode};
 
 use crate::BakeError;
 use crate::drawing::{FillRule, Paint, Shape, ShapeSource};
+use crate::native::{self, Native};
 use crate::stroke::{self, StrokeQuality};
 use crate::svg::gradient::{self, has_too_many_stops};
 use crate::svg::group::{Effects, holds_open_blend};
-use crate::svg::recolor::Recolor;
 use crate::svg::path::{affine, bez_path, close_subpaths, transformed_bounds};
+use crate::svg::recolor::Recolor;
 use crate::svg::style::stroke_style;
 use crate::svg::{Plan, Step, Subtree};
 use crate::tree::{self, Tree};
@@ -63,6 +64,7 @@ pub(crate) fn plan<'a>(
         steps: Vec::new(),
         nodes: Vec::new(),
         element_count: 0,
+        native_texels_left: native::MAX_TEXELS,
     };
     let place = Place {
         canvas_from_user: Affine::IDENTITY,
@@ -98,6 +100,8 @@ pub(super) struct Walker<'a, 'w> {
     pub(super) nodes: Vec<tree::Node>,
     /// Path elements of all outlines so far; past the limit nothing more is made.
     pub(super) element_count: usize,
+    /// Texels that further images may keep.
+    native_texels_left: u64,
 }
 
 /// What ancestors hand down.
@@ -146,7 +150,10 @@ impl<'a> Walker<'a, '_> {
             Node::Image(image) => match image.kind() {
                 _ if !image.is_visible() => {}
                 ImageKind::SVG(tree) => self.nested(node, tree, place),
-                _ => self.raster(node, place, "image"),
+                _ => {
+                    let native = Native::of(image, place.canvas_from_user);
+                    self.raster_with(node, place, "image", native);
+                }
             },
             Node::Text(text) => self.group(node, text.flattened(), place),
         }
@@ -333,14 +340,26 @@ impl<'a> Walker<'a, '_> {
     }
 
     pub(super) fn raster(&mut self, node: &'a Node, place: Place<'a>, feature: &'static str) {
+        self.raster_with(node, place, feature, None);
+    }
+
+    fn raster_with(
+        &mut self,
+        node: &'a Node,
+        place: Place<'a>,
+        feature: &'static str,
+        native: Option<Native>,
+    ) {
         let bounds = layer_bounds(node, place.canvas_from_user);
         if !bounds.is_finite() || !self.shows(bounds) {
             return;
         }
+        let native = native.and_then(|native| native.within(&mut self.native_texels_left));
         self.show(Step::Raster(Subtree {
             node,
             canvas_from_parent: place.canvas_from_user,
             bounds,
+            native,
             feature,
             element: place.element.to_owned(),
         }));

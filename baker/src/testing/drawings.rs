@@ -3,10 +3,12 @@
 use std::path::PathBuf;
 
 use kurbo::BezPath;
+use vtex_format::{Gradient, VtexFile};
 
 use crate::{
     config::{BakeConfig, Resources},
-    drawing::{Drawing, FillRule, Item, Paint, Shape, ShapeSource},
+    drawing::{Drawing, FillRule, Item, Paint, Shape, ShapeSource, to_f32},
+    gradient,
 };
 
 /// A file of the corpus; `None` when there is no corpus here.
@@ -39,6 +41,23 @@ pub(crate) fn solid(paint: &Paint) -> [f32; 4] {
         Paint::Solid(color) => *color,
         Paint::Gradient(gradient) => panic!("{gradient:?} is no single colour"),
     }
+}
+
+/// The colour of any paint at a place of the canvas, straight.
+pub(crate) fn paint_at(paint: &Paint, uv: [f64; 2]) -> [f32; 4] {
+    match paint {
+        Paint::Solid(color) => *color,
+        Paint::Gradient(gradient) => gradient::color_at(gradient, uv).map(to_f32),
+    }
+}
+
+/// The colour of a file's paint at a place of the canvas, straight.
+pub(crate) fn stored_at(file: &VtexFile, index: u32, uv: [f64; 2]) -> [f32; 4] {
+    let record = &file.paints[index as usize];
+    let stored = Gradient::of(record, &file.gradients);
+    stored.map_or(record.color, |stored| {
+        gradient::color_at(&stored, uv).map(to_f32)
+    })
 }
 
 /// An SVG as the bake sees it, without fonts.

@@ -8,7 +8,7 @@ use vtex_format::{
 };
 
 use crate::forge::{Forged, put_together, seal, take_apart};
-use crate::gradients::GRADIENT_VALUES;
+use crate::gradients::{GRADIENT_FILES, GRADIENT_VALUES};
 use crate::outlined::{OUTLINED_CASES, OUTLINED_VALUES};
 use crate::sample;
 use crate::scoped::{SCOPED_VALUES, scoped};
@@ -25,7 +25,6 @@ const SPEC: usize = 1;
 const SHDR: usize = 2;
 const PROV: usize = 3;
 const PANT: usize = 4;
-const GRAD: usize = 5;
 const SHAP: usize = 6;
 const IMAG: usize = 8;
 const CELL: usize = 9;
@@ -120,9 +119,6 @@ const CONTENT_CASES: &[FileCase] = &[
     (3042, |s| patch(&mut s[SHDR], 16 + 19, &[1])),
     (4001, |s| cut(&mut s[PANT], 4)),
     (4001, |s| cut(&mut s[SHAP], 1)),
-    (4001, |s| cut(&mut s[GRAD], 2)),
-    (4006, |s| cut(&mut s[GRAD], 4)),
-    (4006, |s| drop(s.remove(GRAD))),
     (4001, |s| cut(&mut s[CURV], 1)),
     (3023, |s| drop(s.remove(CURV))),
     (5016, |s| cut(&mut s[CURV], 4)),
@@ -166,7 +162,6 @@ const VALUE_CASES: &[ValueCase] = &[
     (3020, |f| outline(f).width_texels = 2.0),
     (3020, |f| outline(f).width_texels = f32::NAN),
     (3021, |f| outline(f).paint = 4),
-    (3024, |f| outline(f).paint = 2),
     (3022, |f| lattice(f).units_per_cell = 0),
     (3022, |f| lattice(f).margin_units = 32_768),
     (3022, |f| lattice(f).margin_units = u32::MAX),
@@ -177,7 +172,6 @@ const VALUE_CASES: &[ValueCase] = &[
     (3033, |f| f.spec.features &= !Features::MSDF),
     (3033, |f| f.spec.features &= !Features::TRANSLUCENT),
     (3033, |f| f.spec.features &= !Features::CURVES),
-    (3033, |f| f.spec.features &= !Features::GRADIENTS),
     (3033, |f| f.spec.features = 0),
     (3034, |f| f.spec.features |= Features::MASK),
     (3034, |f| f.meta.sampler.outline = None),
@@ -290,7 +284,7 @@ fn codes(issues: &[Issue]) -> BTreeSet<u16> {
 
 #[test]
 fn broken_files_have_the_issue() {
-    let cases: Vec<FileCase> = [TABLE_CASES, CONTENT_CASES].concat();
+    let cases: Vec<FileCase> = [TABLE_CASES, CONTENT_CASES, GRADIENT_FILES].concat();
     check_files(&sample::small(), &cases);
     check_files(&sample::outlined(), OUTLINED_CASES);
 }
@@ -365,13 +359,7 @@ fn broken_headers_have_the_issue() {
 fn every_issue_has_a_case() {
     let files = [TABLE_CASES, CONTENT_CASES, OUTLINED_CASES].concat();
     let files = files.iter().map(|case| case.0);
-    let values = [
-        VALUE_CASES,
-        OUTLINED_VALUES,
-        GRADIENT_VALUES,
-        SCOPED_VALUES,
-    ]
-    .concat();
+    let values = [VALUE_CASES, OUTLINED_VALUES, GRADIENT_VALUES, SCOPED_VALUES].concat();
     let values = values.iter().map(|case| case.0);
     let cases: BTreeSet<u16> = files.chain(values).chain(1001..=1007).collect();
     let all: BTreeSet<u16> = ISSUES.iter().map(|kind| kind.code).collect();

@@ -1,13 +1,27 @@
 //! Gradients of samples, and what can be wrong with them.
 
 use arbtest::arbitrary::{Result, Unstructured};
-use vtex_format::{Gradient, GradientShape, GradientStop, Spread};
+use vtex_format::{Features, Gradient, GradientShape, GradientStop, Spread};
 
-use crate::cases::ValueCase;
+use crate::cases::{FileCase, ValueCase, cut};
+
+/// Place of `GRAD` among the sections of the sample.
+const GRAD: usize = 5;
+
+/// What the bytes of `GRAD` can lack.
+pub(crate) const GRADIENT_FILES: &[FileCase] = &[
+    (4001, |s| cut(&mut s[GRAD], 2)),
+    (4006, |s| cut(&mut s[GRAD], 4)),
+    (4006, |s| drop(s.remove(GRAD))),
+];
 
 /// The first gradient has 13 numbers, stops from the third on; the second 23, stops from the
 /// eighth on.
 pub(crate) const GRADIENT_VALUES: &[ValueCase] = &[
+    (3024, |f| {
+        f.meta.sampler.outline.as_mut().unwrap().paint = 2;
+    }),
+    (3033, |f| f.spec.features &= !Features::GRADIENTS),
     (4004, |f| f.paints[2].flags |= 3),
     (4004, |f| f.paints[2].flags |= 8),
     (4004, |f| f.paints[3].color[0] = 1.0),

@@ -31,13 +31,13 @@ fn color(sampler: &Sampler<'_>, stops: u32, count: u32, t: f32) -> [f32; 4] {
     let passed = passed(sampler, stops, count, t);
     let left = passed.max(1) - 1;
     let right = passed.min(count.wrapping_sub(1));
-    let from = sampler.word_float(stops.wrapping_add(left));
-    let to = sampler.word_float(stops.wrapping_add(right));
+    let start = sampler.word_float(stops.wrapping_add(left));
+    let end = sampler.word_float(stops.wrapping_add(right));
     let colors = stops.wrapping_add(count.next_multiple_of(4));
     let first = sampler.word_float4(colors.wrapping_add(left.wrapping_mul(4)));
     let second = sampler.word_float4(colors.wrapping_add(right.wrapping_mul(4)));
-    let span = if left == right { 1.0 } else { to - from };
-    let f = (t - from) / span;
+    let span = if left == right { 1.0 } else { end - start };
+    let f = (t - start) / span;
     std::array::from_fn(|i| first[i] + f * (second[i] - first[i]))
 }
 

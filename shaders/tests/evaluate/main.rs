@@ -10,6 +10,7 @@ mod address;
 mod builder;
 mod curves;
 mod formula;
+mod gradients;
 mod images;
 mod lists;
 mod spec;

@@ -79,6 +79,7 @@ fn code_of_absent_features_is_not_in_the_text() {
         let images = lists && has(Features::IMAGES);
         // An image's texels may be translucent.
         let translucent = lists && (has(Features::TRANSLUCENT) || images);
+        let gradients = has(Features::GRADIENTS);
         let edges = msdf || curves;
         // [SFG22] eq. 2 draws by distance whatever the filter.
         let ramps = edges && (has(Features::RAMPS) || has(Features::OUTLINE));
@@ -107,7 +108,15 @@ fn code_of_absent_features_is_not_in_the_text() {
                 "vtex_color_encode",
                 (translucent && !mask || scopes) && (ramps || images),
             ),
-            ("vtex_color_decode", translucent && !mask || scopes),
+            (
+                "vtex_color_decode",
+                !mask && (translucent || gradients) || scopes,
+            ),
+            ("vtex_gradient", gradients),
+            (
+                "vtex_tint",
+                !ramps && (scopes || gradients && translucent && !mask),
+            ),
             ("vtex_matrix_linear", has(Features::TEXTURE_MATRIX)),
             ("alias VtexValue = f32;", mask),
             ("vtex_clips", clips && !ramps),

@@ -80,6 +80,7 @@ pub(crate) fn feature_names(features: u32) -> Vec<&'static str> {
         (Features::OUTLINE, "outline"),
         (Features::TEXTURE_MATRIX, "texture-matrix"),
         (Features::CURVES, "curves"),
+        (Features::GRADIENTS, "gradients"),
     ];
     names
         .into_iter()

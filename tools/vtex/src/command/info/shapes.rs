@@ -18,6 +18,7 @@ pub(super) fn shape_json(file: &VtexFile, index: usize, shape: &ShapeRecord) -> 
         COVERAGE_IMAGE => json!({"image": shape.layer_or_image}),
         _ => json!({"layer": shape.layer_or_image}),
     };
+    let paint = file.paints.get(shape.paint as usize);
     let mut record = json!({
         "coverage": coverage_name(shape.coverage),
         "element": report.map(|r| &r.element), "source": report.map(|r| &r.source),
@@ -26,7 +27,8 @@ pub(super) fn shape_json(file: &VtexFile, index: usize, shape: &ShapeRecord) -> 
         "size_texels": report.map(|r| r.size_texels),
         "wrong_share": error.map(|e| e.wrong_share), "p99_px": error.map(|e| e.p99_px),
         "bounds_uv": shape.bounds_uv, "segments": shape.segment_count,
-        "color": file.paints.get(shape.paint as usize).map(|paint| paint.color),
+        "color": paint.filter(|paint| !paint.is_gradient()).map(|paint| paint.color),
+        "gradient": paint.is_some_and(PaintRecord::is_gradient),
     });
     if let (Value::Object(record), Value::Object(place)) = (&mut record, place) {
         record.extend(place);
@@ -141,5 +143,8 @@ pub(super) fn shapes(out: &mut String, file: &VtexFile, shown: usize) -> std::fm
 }
 
 fn css(paint: &PaintRecord) -> String {
+    if paint.is_gradient() {
+        return "gradient".to_owned();
+    }
     format!("#{}", hex(&paint.color.map(crate::srgb::byte)))
 }
