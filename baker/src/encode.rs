@@ -2,7 +2,9 @@
 
 use kurbo::Shape as _;
 use rayon::prelude::*;
-use vtex_format::{CurveLattice, CurveSources, LayerRecord, Outline, VtexFile};
+use vtex_format::{
+    CurveLattice, CurveSources, LayerRecord, Outline, ShaderBlob, SpecKey, VtexFile,
+};
 
 use vtex_shaders::{SpecParts, shader_blob, spec_key_from_parts};
 
@@ -85,24 +87,19 @@ pub(crate) fn assemble(
         paint: paints.intern(&config.stroke_color.map_or(Paint::BLACK, Paint::Solid)),
     });
     let warnings = records::warnings(&mut drawing, &placed, &packing, &lists);
-    let curve_lattice = curve_lattice(&placed, &lattice, &scales, config.max_zoom)
-        .filter(|_| !lists.curves.is_empty());
-    let sources = curve_lattice.and_then(|curve_lattice| {
-        stored_outlines(&input, &lists, &lattice, curve_lattice, config.max_zoom)
-    });
+    let (curve_lattice, sources) = stored_curves(&input, &lists, &lattice, &scales, config);
     let meta = records::meta(&drawing, config, &lattice, curve_lattice, &scales, outline);
     let shapes = records::shape_records(&input, &lattice);
     let layers = layers.records(&lists);
     let (paints, gradients) = paints.into_records();
-    let spec = spec_key_from_parts(&SpecParts {
+    let (spec, shader) = specialised(&SpecParts {
         sampler: &meta.sampler,
         texels_per_cell: lattice.grid.texels_per_cell,
         paints: &paints,
         cells: &lists.words,
         entries: &lists.entries,
         canvas_mips: mip0.is_some(),
-    });
-    let shader = shader_blob(&spec).map_err(|error| BakeError::Shader(error.to_string()))?;
+    })?;
     let mut file = VtexFile {
         meta,
         spec,
@@ -161,6 +158,28 @@ pub(crate) fn rastered(
         tree: Tree::flat(1),
         warnings,
     })
+}
+
+/// The shader's key and text.
+fn specialised(parts: &SpecParts<'_>) -> Result<(SpecKey, ShaderBlob), BakeError> {
+    let spec = spec_key_from_parts(parts);
+    let shader = shader_blob(&spec).map_err(|error| BakeError::Shader(error.to_string()))?;
+    Ok((spec, shader))
+}
+
+/// The lattice of curve records, if there are any, and the outlines that they are made from.
+fn stored_curves(
+    input: &CellInput<'_>,
+    lists: &CellLists,
+    lattice: &Lattice,
+    scales: &Scales,
+    config: &BakeConfig,
+) -> (Option<CurveLattice>, Option<CurveSources>) {
+    let curve_lattice = curve_lattice(input.placed, lattice, scales, config.max_zoom)
+        .filter(|_| !lists.curves.is_empty());
+    let sources = curve_lattice
+        .and_then(|curves| stored_outlines(input, lists, lattice, curves, config.max_zoom));
+    (curve_lattice, sources)
 }
 
 /// The outlines that a reader makes the curve records from, where it can.

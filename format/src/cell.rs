@@ -220,7 +220,7 @@ mod tests {
             entry(EntryKind::Open, false, 1, 0),
             entry(EntryKind::Open, false, 0, 2),
             entry(EntryKind::Close, true, 0, 0),
-            entry(EntryKind::Close, false, 16, 0),
+            entry(EntryKind::Close, false, 17, 0),
             entry(EntryKind::Close, false, 0, 1.000_000_1_f32.to_bits()),
             entry(EntryKind::Close, false, 0, (-0.0_f32).to_bits()),
             entry(EntryKind::Close, false, 0, f32::NAN.to_bits()),

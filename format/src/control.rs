@@ -42,11 +42,13 @@ pub enum BlendMode {
     Color = 14,
     /// Luminosity of the group, hue and saturation of the backdrop.
     Luminosity = 15,
+    /// Sum, of colour and of alpha: `plus-lighter` of Compositing and Blending Level 2.
+    PlusLighter = 16,
 }
 
 impl BlendMode {
     /// All of them; each stands at its own number.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::Normal,
         Self::Multiply,
         Self::Screen,
@@ -63,6 +65,7 @@ impl BlendMode {
         Self::Saturation,
         Self::Color,
         Self::Luminosity,
+        Self::PlusLighter,
     ];
 }
 

@@ -232,6 +232,8 @@ mod blend = "BLEND" {
     SATURATION = vtex_format::BlendMode::Saturation as u32;
     /// [`vtex_format::BlendMode::Color`].
     COLOR = vtex_format::BlendMode::Color as u32;
+    /// [`vtex_format::BlendMode::PlusLighter`].
+    PLUS_LIGHTER = vtex_format::BlendMode::PlusLighter as u32;
 }
 
 /// Of curves.

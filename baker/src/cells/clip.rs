@@ -15,9 +15,9 @@ pub(super) enum Formula<'a> {
     /// Inside the outline of a record.
     Inside(Box<CurvesDraft<'a>>),
     /// Where all are; two at least.
-    All(Vec<Formula<'a>>),
+    All(Vec<Self>),
     /// Where one is; two at least.
-    Any(Vec<Formula<'a>>),
+    Any(Vec<Self>),
 }
 
 /// One step: lookups on one side of an outline pass over what follows.

@@ -7,6 +7,9 @@ type Rgb = [f64; 3];
 /// `source` blended with and composited over `backdrop` (sections 5.1 and 10.1): sRGB-encoded,
 /// premultiplied.
 pub(super) fn blend(mode: BlendMode, source: [f64; 4], backdrop: [f64; 4]) -> [f64; 4] {
+    if mode == BlendMode::PlusLighter {
+        return std::array::from_fn(|i| (source[i] + backdrop[i]).min(1.0));
+    }
     let [source_alpha, backdrop_alpha] = [source[3], backdrop[3]];
     let straight = |color: [f64; 4]| {
         let alpha = if color[3] > 0.0 { color[3] } else { 1.0 };
@@ -26,7 +29,8 @@ pub(super) fn blend(mode: BlendMode, source: [f64; 4], backdrop: [f64; 4]) -> [f
 fn mixed(mode: BlendMode, b: Rgb, s: Rgb) -> Rgb {
     let each = |f: fn(f64, f64) -> f64| [f(b[0], s[0]), f(b[1], s[1]), f(b[2], s[2])];
     match mode {
-        BlendMode::Normal => s,
+        // The latter mixes nothing.
+        BlendMode::Normal | BlendMode::PlusLighter => s,
         BlendMode::Multiply => each(|b, s| b * s),
         BlendMode::Screen => each(screen),
         BlendMode::Overlay => each(|b, s| hard_light(s, b)),

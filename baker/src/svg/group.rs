@@ -215,6 +215,6 @@ fn blend_mode(mode: BlendMode) -> format::BlendMode {
         BlendMode::Saturation => format::BlendMode::Saturation,
         BlendMode::Color => format::BlendMode::Color,
         BlendMode::Luminosity => format::BlendMode::Luminosity,
-        BlendMode::PlusLighter => format::BlendMode::Screen,
+        BlendMode::PlusLighter => format::BlendMode::PlusLighter,
     }
 }

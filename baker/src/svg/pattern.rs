@@ -175,7 +175,7 @@ impl<'a> Walker<'a, '_> {
             ..Effects::default()
         };
         self.scope(first, effects, |walker| {
-            walker.children(pattern.root(), place)
+            walker.children(pattern.root(), place);
         });
     }
 

@@ -11,6 +11,9 @@ pub(super) fn blend(number: u32, behind: [f32; 4], group: [f32; 4]) -> [f32; 4] 
     if number < mode::MULTIPLY {
         return std::array::from_fn(|i| group[i] + (1.0 - ag) * behind[i]);
     }
+    if number == mode::PLUS_LIGHTER {
+        return std::array::from_fn(|i| (behind[i] + group[i]).min(1.0));
+    }
     let straight = |[r, g, b, a]: [f32; 4]| [r, g, b].map(|c| (c / a).min(1.0));
     let [b, s] = [straight(behind), straight(group)];
     let blended = if number >= mode::HUE {

@@ -4,6 +4,9 @@
 // Compositing and Blending Level 1, section 5.8. Both sides sRGB-encoded, premultiplied, not empty.
 
 fn vtex_blend(mode: u32, behind: vec4f, group: vec4f) -> vec4f {
+    if mode == VTEX_BLEND_PLUS_LIGHTER {
+        return min(behind + group, vec4f(1.0));
+    }
     let b = min(behind.rgb / behind.a, vec3f(1.0));
     let s = min(group.rgb / group.a, vec3f(1.0));
     var blended = s;

@@ -6,6 +6,9 @@ type Rgb = [f64; 3];
 
 /// Section 5.8: sRGB-encoded, premultiplied; `cs` the source, `cb` the backdrop as there.
 pub(super) fn blend(mode: BlendMode, backdrop: [f64; 4], source: [f64; 4]) -> [f64; 4] {
+    if mode == BlendMode::PlusLighter {
+        return std::array::from_fn(|i| (backdrop[i] + source[i]).min(1.0));
+    }
     let straight = |[r, g, b, a]: [f64; 4]| [r, g, b].map(|c| if a > 0.0 { c / a } else { 0.0 });
     let (cb, ab, cs, a_s) = (straight(backdrop), backdrop[3], straight(source), source[3]);
     let mixed = blended(mode, cb, cs);
