@@ -144,7 +144,9 @@ pub(crate) fn patch_failures(
         resolved.push(cover.unwrap_or_else(|_| {
             // A shape of which nothing shows is listed nowhere.
             if let Some(patch) = patch::of_shape(item, settings, share) {
-                drawing.warnings.push(failure_warning(&patch));
+                drawing
+                    .warnings
+                    .push(failure_warning(&patch, drawing.canvas_size));
                 *item = Item::Patch(patch);
                 *placed = place_item(item, lattice, longer, Verdict::forced(Coverage::Msdf));
             }
@@ -154,7 +156,7 @@ pub(crate) fn patch_failures(
     resolved
 }
 
-fn failure_warning(patch: &Patch) -> Warning {
+fn failure_warning(patch: &Patch, canvas_size: [f64; 2]) -> Warning {
     let [width, height] = patch.image.size;
     Warning {
         code: WarningCode::PathFallback,
@@ -164,6 +166,7 @@ fn failure_warning(patch: &Patch) -> Warning {
             "this outline is too complex for curves; it is stored as a raster of {width} x {height} \
              texels"
         ),
+        area: patch.area(canvas_size),
     }
 }
 

@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use kurbo::Rect;
 use rayon::prelude::*;
 use tiny_skia::{Pixmap, Transform};
-use vtex_format::WarningCode;
+use vtex_format::{Warning, WarningCode};
 
 use crate::color;
 use crate::config::BakeConfig;
@@ -73,7 +73,7 @@ pub(crate) fn resolve(plan: Plan<'_>, settings: PatchSettings, warnings: &Warnin
         match patch {
             Outcome::Patch(patch, density) => {
                 coarse |= density < settings.wanted_density();
-                warn_patch(&patch, warnings);
+                warnings.add(patch_warning(&patch, settings.canvas_size));
                 items.push(Item::Patch(patch));
             }
             Outcome::Nothing => {}
@@ -158,18 +158,15 @@ enum Outcome {
     Failed(&'static str, String),
 }
 
-fn warn_patch(patch: &Patch, warnings: &Warnings) {
-    let [width, height] = patch.image.size;
-    let message = format!(
-        "{} is stored as a raster of {width} x {height} texels",
-        patch.feature
-    );
-    warnings.push(
-        WarningCode::RasterPatch,
-        &patch.feature,
-        &patch.element,
-        message,
-    );
+fn patch_warning(patch: &Patch, canvas_size: [f64; 2]) -> Warning {
+    let (feature, [width, height]) = (&patch.feature, patch.image.size);
+    Warning {
+        code: WarningCode::RasterPatch,
+        feature: feature.clone(),
+        element: patch.element.clone(),
+        message: format!("{feature} is stored as a raster of {width} x {height} texels"),
+        area: patch.area(canvas_size),
+    }
 }
 
 fn warn_coarse(warnings: &Warnings) {

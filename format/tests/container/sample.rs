@@ -242,6 +242,7 @@ fn provenance(shape_count: usize) -> Provenance {
             feature: "filter".to_owned(),
             element: "g2".to_owned(),
             message: "drawn as a raster image".to_owned(),
+            area: 0.125,
         }],
     }
 }
