@@ -247,6 +247,11 @@ fn provenance(shape_count: usize) -> Provenance {
     }
 }
 
+/// The area of the first warning.
+pub(crate) fn area(file: &mut VtexFile) -> &mut f32 {
+    &mut file.provenance.as_mut().unwrap().warnings[0].area
+}
+
 /// An arbitrary valid file.
 pub(crate) fn arbitrary(u: &mut Unstructured<'_>) -> Result<VtexFile> {
     let size = [u.int_in_range(1..=9)?, u.int_in_range(1..=9)?];
