@@ -137,7 +137,11 @@ fn places(painter: &Painter, count: usize) -> Vec<[f32; 2]> {
     places
 }
 
+/// Drawings below a folder; those of a chapter with a table are the suite `cases`'s.
 fn svg_files(folder: &Path, found: &mut Vec<PathBuf>) {
+    if folder.join("cases.tsv").exists() {
+        return;
+    }
     let Ok(entries) = std::fs::read_dir(folder) else {
         return;
     };
