@@ -1,18 +1,13 @@
-//! Every real file of the corpus becomes a drawing that looks as resvg paints it. Slow: runs with
-//! `VTEX_SLOW=1` where the folder named by `VTEX_CORPUS` exists.
+//! Files of the corpus, hostile ones too, become drawings. Slow: runs with `VTEX_SLOW=1` where the
+//! folder named by `VTEX_CORPUS` exists.
 
 #![expect(clippy::print_stdout, reason = "says when there is no corpus")]
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use rayon::prelude::*;
-
-use crate::picture_tests::{compare, dump};
 use crate::testing::corpus_root;
 use crate::{BakeConfig, Mode, Resources, bake, draw};
-
-const SIZE: u32 = 512;
 
 /// What usvg or resvg themselves do not finish within a minute; only a process limit helps.
 const ENDLESS: [&str; 4] = [
@@ -31,18 +26,6 @@ fn corpus() -> Option<PathBuf> {
     folder
 }
 
-/// Fonts of the folder named by `VTEX_FONTS`, none without it.
-fn resources() -> Resources {
-    let mut fonts = usvg::fontdb::Database::new();
-    if let Some(folder) = std::env::var_os("VTEX_FONTS") {
-        fonts.load_fonts_dir(folder);
-    }
-    Resources {
-        fonts: fonts.into(),
-        ..Resources::default()
-    }
-}
-
 fn svg_files(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder).unwrap() {
@@ -55,65 +38,6 @@ fn svg_files(folder: &Path) -> Vec<PathBuf> {
     }
     found.sort();
     found
-}
-
-#[test]
-fn real_files_look_as_resvg_paints_them() {
-    let Some(folder) = corpus() else { return };
-    let files: Vec<_> = svg_files(&folder)
-        .into_iter()
-        .filter(|f| !f.starts_with(folder.join("hostile")))
-        .collect();
-    let resources = resources();
-    let mut rows: Vec<(f64, String)> = files
-        .par_iter()
-        .map(|file| {
-            let name = file.strip_prefix(&folder).unwrap().display().to_string();
-            let svg = std::fs::read(file).unwrap();
-            let start = std::time::Instant::now();
-            match compare(&svg, &resources, SIZE) {
-                Ok(c) => {
-                    if c.psnr < 40.0 {
-                        dump(&name.replace('/', "_"), &c.ours, &c.theirs);
-                    }
-                    let ms = start.elapsed().as_millis();
-                    let items = c.drawing.items.len();
-                    let features: std::collections::BTreeSet<_> = c
-                        .drawing
-                        .warnings
-                        .iter()
-                        .map(|w| w.feature.as_str())
-                        .collect();
-                    (
-                        c.psnr,
-                        format!("{name}\t{}\t{ms}\t{items}\t{features:?}", c.max),
-                    )
-                }
-                Err(e) => (-1.0, format!("{name}\t{e}")),
-            }
-        })
-        .collect();
-    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
-    if let Ok(dir) = std::env::var("VTEX_DUMP") {
-        let mut report = String::new();
-        for (psnr, row) in &rows {
-            writeln!(report, "{psnr:.1}\t{row}").unwrap();
-        }
-        std::fs::write(Path::new(&dir).join("corpus.tsv"), report).unwrap();
-    }
-    let share = |bound: f64| rows.iter().filter(|r| r.0 >= bound).count() * 100 / rows.len();
-    assert!(
-        share(40.0) >= 80,
-        "only {}% of {} files reach 40 dB",
-        share(40.0),
-        rows.len()
-    );
-    assert!(
-        share(30.0) >= 97,
-        "only {}% of {} files reach 30 dB",
-        share(30.0),
-        rows.len()
-    );
 }
 
 #[test]

@@ -156,7 +156,9 @@ pub(crate) fn patch_failures(
             }
             // A shape of which nothing shows is listed nowhere.
             if let Some(patch) = patch::of_shape(item, settings, share) {
-                drawing.warnings.push(failure_warning(&patch));
+                drawing
+                    .warnings
+                    .push(failure_warning(&patch, drawing.canvas_size));
                 *item = Item::Patch(patch);
                 *placed = place_item(item, lattice, longer, Verdict::forced(Coverage::Msdf));
             }
@@ -172,10 +174,11 @@ fn clip_warning() -> Warning {
         feature: "clipPath".into(),
         element: String::new(),
         message: "an outline to clip to is too complex for curves; nothing is clipped to it".into(),
+        area: 0.0,
     }
 }
 
-fn failure_warning(patch: &Patch) -> Warning {
+fn failure_warning(patch: &Patch, canvas_size: [f64; 2]) -> Warning {
     let [width, height] = patch.image.size;
     Warning {
         code: WarningCode::PathFallback,
@@ -185,6 +188,7 @@ fn failure_warning(patch: &Patch) -> Warning {
             "this outline is too complex for curves; it is stored as a raster of {width} x {height} \
              texels"
         ),
+        area: patch.area(canvas_size),
     }
 }
 

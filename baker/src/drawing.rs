@@ -99,6 +99,18 @@ pub(crate) struct Patch {
     pub(crate) element: String,
 }
 
+impl Patch {
+    /// Share of the canvas where it shows something: texels with alpha above 0.
+    pub(crate) fn area(&self, canvas_size: [f64; 2]) -> f32 {
+        let texels = self.image.mips.first().map_or(&[][..], |level| level);
+        let alphas = texels.iter().skip(3).step_by(4);
+        let clear = alphas.filter(|&&alpha| alpha == 0).count();
+        #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
+        let shown = 1.0 - clear as f64 / (texels.len() / 4).max(1) as f64;
+        to_f32(shown * self.rect.area() / (canvas_size[0] * canvas_size[1])).clamp(0.0, 1.0)
+    }
+}
+
 /// A coordinate as the file stores it.
 #[expect(clippy::cast_possible_truncation, reason = "stored as f32")]
 pub(crate) fn to_f32(x: f64) -> f32 {

@@ -75,7 +75,7 @@ pub(crate) fn resolve(
             Outcome::Item(item) => Some(item),
             Outcome::Patch(patch, density) => {
                 coarse |= density < settings.wanted_density();
-                warn_patch(&patch, warnings);
+                warnings.add(patch_warning(&patch, settings.canvas_size));
                 Some(Item::Patch(patch))
             }
             Outcome::Nothing => None,
@@ -152,18 +152,15 @@ enum Outcome {
     Failed(&'static str, String),
 }
 
-fn warn_patch(patch: &Patch, warnings: &Warnings) {
-    let [width, height] = patch.image.size;
-    let message = format!(
-        "{} is stored as a raster of {width} x {height} texels",
-        patch.feature
-    );
-    warnings.push(
-        WarningCode::RasterPatch,
-        &patch.feature,
-        &patch.element,
-        message,
-    );
+fn patch_warning(patch: &Patch, canvas_size: [f64; 2]) -> Warning {
+    let (feature, [width, height]) = (&patch.feature, patch.image.size);
+    Warning {
+        code: WarningCode::RasterPatch,
+        feature: feature.clone(),
+        element: patch.element.clone(),
+        message: format!("{feature} is stored as a raster of {width} x {height} texels"),
+        area: patch.area(canvas_size),
+    }
 }
 
 fn coarse_warning() -> Warning {
@@ -176,6 +173,7 @@ fn coarse_warning() -> Warning {
              to keep within {} MiB",
             MAX_PATCH_TEXELS * 16.0 / 3.0 / 1_048_576.0
         ),
+        area: 0.0,
     }
 }
 

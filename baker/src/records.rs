@@ -95,6 +95,8 @@ pub(crate) fn warnings(
     lists: &CellLists,
 ) -> Vec<Warning> {
     let mut warnings = std::mem::take(&mut drawing.warnings);
+    let canvas =
+        Rect::from_origin_size((0.0, 0.0), (drawing.canvas_size[0], drawing.canvas_size[1]));
     for (item, placed) in drawing.items.iter().zip(placed) {
         if let (Item::Shape(shape), PlacedKind::Shape { note, verdict, .. }) = (item, &placed.kind)
             && *note == Note::Failed
@@ -106,6 +108,7 @@ pub(crate) fn warnings(
                 element: shape.element.clone(),
                 message: "overlaps in this outline could not be removed; its edges may be rough"
                     .into(),
+                area: share(shape.outline.bounding_box(), canvas),
             });
         }
     }
@@ -115,6 +118,7 @@ pub(crate) fn warnings(
             feature: "merge".into(),
             element: String::new(),
             message: "shapes that touch were forced into one layer".into(),
+            area: 0.0,
         });
     }
     let told = |code| warnings.iter().any(|warning| warning.code == code);
@@ -125,9 +129,16 @@ pub(crate) fn warnings(
             feature: "svg".into(),
             element: String::new(),
             message: "nothing in the drawing shows on its canvas".into(),
+            area: 0.0,
         });
     }
     warnings
+}
+
+/// Share of the canvas that a box covers.
+fn share(of: Rect, canvas: Rect) -> f32 {
+    let shown = of.intersect(canvas);
+    to_f32(shown.area() / canvas.area()).clamp(0.0, 1.0)
 }
 
 /// A place for the canvas' mips, if there will be any, and the patches.

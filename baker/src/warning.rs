@@ -1,6 +1,6 @@
 //! Collects what was approximated or left out while the drawing is made.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use vtex_format::{Warning, WarningCode};
@@ -11,7 +11,7 @@ use vtex_format::{Warning, WarningCode};
 pub(crate) struct Warnings(Mutex<Vec<Warning>>);
 
 impl Warnings {
-    /// Adds one warning; `element` may be empty.
+    /// Adds one warning of no known area; `element` may be empty.
     pub(crate) fn push(
         &self,
         code: WarningCode,
@@ -24,6 +24,7 @@ impl Warnings {
             feature: feature.to_owned(),
             element: element.to_owned(),
             message: message.into(),
+            area: 0.0,
         });
     }
 
@@ -35,21 +36,25 @@ impl Warnings {
             .push(warning);
     }
 
-    /// The list without repetitions.
+    /// The list without repetitions; areas of what is said twice add up.
     pub(crate) fn into_list(self) -> Vec<Warning> {
         let list = self.0.into_inner().unwrap_or_else(PoisonError::into_inner);
-        let mut seen = BTreeSet::new();
-        list.into_iter()
-            .filter(|w| {
-                let key = (
-                    w.code as u32,
-                    w.feature.clone(),
-                    w.element.clone(),
-                    w.message.clone(),
-                );
-                seen.insert(key)
-            })
-            .collect()
+        let mut places = BTreeMap::new();
+        let mut told: Vec<Warning> = Vec::new();
+        for warning in list {
+            let key = (
+                warning.code as u32,
+                warning.feature.clone(),
+                warning.element.clone(),
+                warning.message.clone(),
+            );
+            let place = *places.entry(key).or_insert(told.len());
+            match told.get_mut(place) {
+                Some(first) => first.area = (first.area + warning.area).min(1.0),
+                None => told.push(warning),
+            }
+        }
+        told
     }
 }
 
@@ -60,14 +65,17 @@ mod tests {
     #[test]
     fn repetitions_go_and_the_order_stays() {
         let warnings = Warnings::default();
-        for feature in ["mask", "filter", "mask"] {
-            warnings.push(WarningCode::RasterPatch, feature, "a", "m");
+        for (feature, area) in [("mask", 0.25), ("filter", 0.5), ("mask", 0.125)] {
+            warnings.add(Warning {
+                code: WarningCode::RasterPatch,
+                feature: feature.into(),
+                element: "a".into(),
+                message: "m".into(),
+                area,
+            });
         }
-        let features: Vec<_> = warnings
-            .into_list()
-            .into_iter()
-            .map(|w| w.feature)
-            .collect();
-        assert_eq!(features, ["mask", "filter"]);
+        let list = warnings.into_list().into_iter();
+        let found: Vec<_> = list.map(|w| (w.feature, w.area)).collect();
+        assert_eq!(found, [("mask".into(), 0.375), ("filter".into(), 0.5)]);
     }
 }

@@ -184,6 +184,7 @@ issue_table! {
     PROV_SHAPES = 3050 Malformed "there is not one report a shape";
     PROV_OPTIONS = 3051 Malformed "options are not sorted by name, each once";
     PROV_ERROR = 3052 Malformed "the error of an MSDF is not a number in its range";
+    PROV_AREA = 3053 Malformed "the area of a warning is not in [0, 1]";
 
     RECORD_LENGTH = 4001 Malformed "a section is not a whole number of records";
     RECORD_COUNT = 4002 Malformed "more records than an index can name";

@@ -86,7 +86,7 @@ pub enum Finding {
 }
 
 /// Something a user should know about.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Warning {
     /// Stable code.
     pub code: WarningCode,
@@ -96,6 +96,8 @@ pub struct Warning {
     pub element: String,
     /// One sentence for people.
     pub message: String,
+    /// Share of the canvas that what it speaks of covers, in \[0, 1\]; 0 when unknown or nothing.
+    pub area: f32,
 }
 
 /// Stable codes of [`Warning`].

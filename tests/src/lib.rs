@@ -1,8 +1,9 @@
-//! Support of the test suites: an adapter to run on, random textures, random numbers.
+//! Support of the test suites: an adapter to run on, fonts, random textures, random numbers.
 //!
 //! Functions here panic when something is wrong: they run inside tests.
 
 pub mod fixture;
+pub mod fonts;
 pub mod gpu;
 pub mod random;
 pub mod scopes;

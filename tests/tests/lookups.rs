@@ -137,7 +137,11 @@ fn places(painter: &Painter, count: usize) -> Vec<[f32; 2]> {
     places
 }
 
+/// Drawings below a folder; those of a chapter with a table are the suite `cases`'s.
 fn svg_files(folder: &Path, found: &mut Vec<PathBuf>) {
+    if folder.join("cases.tsv").exists() {
+        return;
+    }
     let Ok(entries) = std::fs::read_dir(folder) else {
         return;
     };
@@ -198,12 +202,20 @@ fn corpus() -> PathBuf {
     )
 }
 
+/// The fonts of the tests, for every family a file asks for.
+fn resources() -> Resources {
+    Resources {
+        fonts: vtex_tests::fonts::library(),
+        ..Resources::default()
+    }
+}
+
 #[test]
 fn own_drawings_look_as_the_painter_paints_them() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/svg");
     let mut files = Vec::new();
     svg_files(&folder, &mut files);
-    let (solid, wrong, _) = compare(&files, &Resources::default(), 20_000);
+    let (solid, wrong, _) = compare(&files, &resources(), 20_000);
     assert!(solid >= 25, "only {solid} drawings are solid");
     assert_eq!(wrong, 0);
 }
@@ -218,7 +230,7 @@ fn a_dozen_of_the_corpus_look_as_the_painter_paints_them() {
     }
     // Spread over all folders.
     let files: Vec<PathBuf> = files.iter().step_by(files.len() / 16).cloned().collect();
-    let (solid, wrong, _) = compare(&files, &Resources::default(), 20_000);
+    let (solid, wrong, _) = compare(&files, &resources(), 20_000);
     assert!(solid > 0);
     assert_eq!(wrong, 0);
 }
@@ -234,15 +246,7 @@ fn the_solid_corpus_looks_as_the_painter_paints_it() {
     let wanted = std::env::var("VTEX_FILTER").unwrap_or_default();
     files.retain(|path| path.to_string_lossy().contains(&wanted));
     let points = std::env::var("VTEX_POINTS").map_or(1_000_000, |text| text.parse().unwrap());
-    let mut fonts = usvg::fontdb::Database::new();
-    if let Some(folder) = std::env::var_os("VTEX_FONTS") {
-        fonts.load_fonts_dir(folder);
-    }
-    let resources = Resources {
-        fonts: fonts.into(),
-        ..Resources::default()
-    };
-    let (solid, wrong, report) = compare(&files, &resources, points);
+    let (solid, wrong, report) = compare(&files, &resources(), points);
     if let Some(folder) = std::env::var_os("VTEX_REPORT") {
         std::fs::write(Path::new(&folder).join("lookups.csv"), &report).unwrap();
     }

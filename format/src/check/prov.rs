@@ -3,7 +3,7 @@
 use crate::issue::{self, Issues};
 use crate::{FieldError, Provenance, Tag};
 
-/// One report a shape, options sorted, errors in range.
+/// One report a shape, options sorted, errors and areas in range.
 pub(super) fn provenance(provenance: &Provenance, shape_count: usize, issues: &mut Issues) {
     let reports = provenance.shapes.len();
     if reports != shape_count {
@@ -17,6 +17,12 @@ pub(super) fn provenance(provenance: &Provenance, shape_count: usize, issues: &m
         if let Some(error) = report.field_error.filter(|error| !sound(*error)) {
             let message = format_args!("shape {index}: {error:?}");
             issues.add(issue::PROV_ERROR, Tag::PROV, 0, message);
+        }
+    }
+    for (index, warning) in provenance.warnings.iter().enumerate() {
+        if !(0.0..=1.0).contains(&warning.area) {
+            let message = format_args!("warning {index}: {}", warning.area);
+            issues.add(issue::PROV_AREA, Tag::PROV, 0, message);
         }
     }
     if !provenance.options.is_sorted_by(|a, b| a.0 < b.0) {

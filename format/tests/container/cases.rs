@@ -186,6 +186,8 @@ const VALUE_CASES: &[ValueCase] = &[
     (3052, |f| field_error(f).wrong_share = f32::NAN),
     (3052, |f| field_error(f).p99_px = -1.0),
     (3052, |f| field_error(f).p99_px = f32::INFINITY),
+    (3053, |f| *sample::area(f) = f32::NAN),
+    (3053, |f| *sample::area(f) = 1.01),
     (4002, |f| {
         f.layers = vec![layer(0, u32::MAX), layer(u32::MAX, 1)];
     }),

@@ -248,8 +248,14 @@ fn provenance(shape_count: usize) -> Provenance {
             feature: "filter".to_owned(),
             element: "g2".to_owned(),
             message: "drawn as a raster image".to_owned(),
+            area: 0.125,
         }],
     }
+}
+
+/// The area of the first warning.
+pub(crate) fn area(file: &mut VtexFile) -> &mut f32 {
+    &mut file.provenance.as_mut().unwrap().warnings[0].area
 }
 
 /// An arbitrary valid file.

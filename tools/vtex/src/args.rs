@@ -320,6 +320,10 @@ pub struct Compare {
     /// Exit with 7 when a zoom's PSNR is below X dB
     #[arg(long, value_name = "X")]
     pub min_psnr: Option<f64>,
+    /// Also tell the truth's own noise: the PSNR of half the samples along each side of a pixel
+    /// against all, in the worst window of each zoom
+    #[arg(long)]
+    pub noise: bool,
     /// Also write a page with pictures: SVG, vtex, raster 4096
     #[arg(long, value_name = "DIR")]
     pub html: Option<PathBuf>,

@@ -6,7 +6,7 @@ use crate::failure::Outcome;
 use crate::metrics::{Difference, difference};
 use crate::picture::{Picture, View, fit_size};
 use crate::preview::Shot;
-use crate::reference::Reference;
+use crate::reference::{Reference, SUPERSAMPLES};
 use crate::windows::EdgeFinder;
 
 /// What is measured.
@@ -136,6 +136,19 @@ impl<'a> Comparison<'a> {
             false => self.reference.render(view, self.size_px)?,
         };
         Ok(self.as_compared(picture))
+    }
+
+    /// The truth's own noise in a window: PSNR of it with half the samples along each side of a
+    /// pixel, dB. No texture can be asked to come nearer.
+    ///
+    /// # Errors
+    /// When the SVG cannot be drawn.
+    pub fn noise_db(&self, view: View) -> Outcome<f64> {
+        let coarse = self
+            .reference
+            .render_with(view, self.size_px, SUPERSAMPLES / 2)?;
+        let truth = self.truth(view)?;
+        Ok(difference(&truth, &self.as_compared(coarse)).psnr_db)
     }
 
     /// The picture that is measured for `picture`: itself, or its alpha for a mask.

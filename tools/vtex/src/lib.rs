@@ -22,6 +22,7 @@ mod memory;
 pub mod metrics;
 pub mod output;
 pub mod page;
+pub mod patches;
 pub mod picture;
 mod plain;
 pub mod preview;

@@ -44,9 +44,13 @@ pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {
         progress.step();
     }
     drop(progress);
+    let noise = args
+        .noise
+        .then(|| noise_db(&comparison, &reports))
+        .transpose()?;
     match console.format {
-        Format::Json => console.json(&json(&args, &reports))?,
-        Format::Text => console.result(text(&reports).as_bytes())?,
+        Format::Json => console.json(&json(&args, &reports, noise.as_deref()))?,
+        Format::Text => console.result(text(&reports, noise.as_deref()).as_bytes())?,
     }
     if let Some(folder) = &args.html {
         let stock = Stock {
@@ -61,6 +65,12 @@ pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {
         write_pictures(folder, &comparison, &shooter, &reports)?;
     }
     Ok(verdict(&args, &reports, console))
+}
+
+/// The truth's own noise in the worst window of each zoom.
+fn noise_db(comparison: &Comparison<'_>, reports: &[ZoomReport]) -> Outcome<Vec<f64>> {
+    let worst = reports.iter().map(|report| report.worst().view);
+    worst.map(|view| comparison.noise_db(view)).collect()
 }
 
 /// The worst window of all, as three PNGs.
@@ -111,16 +121,23 @@ fn verdict(args: &Compare, reports: &[ZoomReport], console: Console) -> ExitCode
     code
 }
 
-fn json(args: &Compare, reports: &[ZoomReport]) -> Value {
+fn json(args: &Compare, reports: &[ZoomReport], noise_db: Option<&[f64]>) -> Value {
+    let zoom = |(index, report): (usize, &ZoomReport)| {
+        let mut zoom = report.to_json();
+        if let Some(noise_db) = noise_db.and_then(|all| all.get(index)) {
+            zoom["noise_db"] = json!(noise_db);
+        }
+        zoom
+    };
     json!({
         "svg": args.svg, "file": args.file, "size": args.size, "spp": args.lookup.spp,
         "filter": format!("{:?}", args.lookup.filter).to_lowercase(),
         "backend": format!("{:?}", args.lookup.backend).to_lowercase(),
-        "zooms": reports.iter().map(ZoomReport::to_json).collect::<Vec<_>>(),
+        "zooms": reports.iter().enumerate().map(zoom).collect::<Vec<_>>(),
     })
 }
 
-fn text(reports: &[ZoomReport]) -> String {
+fn text(reports: &[ZoomReport], noise_db: Option<&[f64]>) -> String {
     let mut out = format!(
         "{:>7} {:>9} {:>10} {:>9}  worst window, uv\n",
         "zoom", "PSNR dB", "wrong px", "max diff"
@@ -142,6 +159,10 @@ fn text(reports: &[ZoomReport]) -> String {
             view.u1,
             view.v1
         );
+    }
+    for (report, noise_db) in reports.iter().zip(noise_db.unwrap_or_default()) {
+        let zoom = report.zoom;
+        let _ = writeln!(out, "{zoom:>7} {noise_db:>9.2} is the truth's own noise");
     }
     out
 }

@@ -12,6 +12,7 @@ use crate::args::Info;
 use crate::console::{Console, Format, human_bytes};
 use crate::failure::{ExitCode, Outcome};
 use crate::heat::cell_loads;
+use crate::patches::patch_cover;
 use crate::walk::{Spread, lookup_load};
 use crate::{input, texture};
 
@@ -93,6 +94,7 @@ fn json(file: &VtexFile, directory: &Directory) -> Value {
     let meta = &file.meta;
     let cells = CellStats::new(file);
     let lookups = lookup_load(file);
+    let patches = patch_cover(file);
     let provenance = file.provenance.as_ref();
     let layers: Vec<_> = (0..)
         .zip(&file.layers)
@@ -146,6 +148,7 @@ fn json(file: &VtexFile, directory: &Directory) -> Value {
         "tool": provenance.map(|p| &p.tool),
         "source_hash": provenance.map(|p| hex(&p.source_hash)),
         "options": provenance.map(|p| &p.options),
+        "patches": {"count": patches.count, "area": patches.area},
         "warnings": warnings_json(provenance.map_or(&[], |p| &p.warnings)),
     })
 }
@@ -195,6 +198,7 @@ pub(super) fn warnings_json(warnings: &[Warning]) -> Value {
             json!({
                 "code": warning.code as u32, "name": format!("{:?}", warning.code),
                 "feature": warning.feature, "element": warning.element, "message": warning.message,
+                "area": warning.area,
             })
         })
         .collect()
@@ -349,7 +353,12 @@ fn images(out: &mut String, file: &VtexFile) -> std::fmt::Result {
         let what = if is_canvas { "canvas mips, " } else { "" };
         writeln!(out, "{index:>5} {size:>13} {levels:>7}  {what}{rect}")?;
     }
-    Ok(())
+    let patches = patch_cover(file);
+    let (count, percent) = (patches.count, 100.0 * patches.area);
+    writeln!(
+        out,
+        "{count} raster patches, over {percent:.1}% of the canvas"
+    )
 }
 
 fn sections(out: &mut String, directory: &Directory) -> std::fmt::Result {
@@ -390,13 +399,12 @@ fn warnings(out: &mut String, file: &VtexFile) -> std::fmt::Result {
     let warnings = file.provenance.as_ref().map_or(&[][..], |p| &p.warnings);
     writeln!(out, "\n{} warnings", warnings.len())?;
     for warning in warnings {
-        writeln!(
-            out,
-            "  {:?} {}: {}",
-            warning.code,
-            warning.feature,
-            warning_text(warning)
-        )?;
+        let (code, feature) = (warning.code, &warning.feature);
+        write!(out, "  {code:?} {feature}: {}", warning_text(warning))?;
+        match warning.area > 0.0 {
+            true => writeln!(out, " ({:.1}% of the canvas)", 100.0 * warning.area)?,
+            false => writeln!(out)?,
+        }
     }
     Ok(())
 }

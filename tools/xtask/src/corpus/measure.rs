@@ -54,7 +54,7 @@ impl Bench<'_> {
             Ok(json) => row.content = Content::parse(&json)?,
             Err(problem) => return Ok(Err(problem)),
         }
-        row.skipped = self.options.only_solid && !row.content.solid;
+        row.skipped = self.options.only_native && !row.content.native;
         if row.skipped {
             return Ok(Ok(()));
         }
@@ -62,6 +62,25 @@ impl Bench<'_> {
         match self.run(compare.args(["--format", "json"]), index)? {
             Ok(json) => row.zooms = Zoom::parse_all(&json)?,
             Err(problem) => return Ok(Err(problem)),
+        }
+        self.add_noise(row, index)
+    }
+
+    /// Asks for the truth's own noise at the zooms that miss their bar.
+    fn add_noise(&self, row: &mut Row, index: usize) -> Result<Result<(), String>> {
+        let bars = &self.options.bars;
+        for (zoom, value) in self.options.zooms.iter().enumerate() {
+            if row.above_db(bars, zoom).is_none_or(|above| above >= 0.0) {
+                continue;
+            }
+            let mut compare = self.compare(&row.file, index, &value.to_string());
+            match self.run(compare.args(["--noise", "--format", "json"]), index)? {
+                Ok(json) => {
+                    let again = Zoom::parse_all(&json)?;
+                    row.zooms.splice(zoom..=zoom, again.into_iter().take(1));
+                }
+                Err(problem) => return Ok(Err(problem)),
+            }
         }
         Ok(Ok(()))
     }

@@ -6,7 +6,7 @@ use base64::Engine as _;
 
 use super::options::Options;
 use super::row::{Row, Zoom};
-use super::totals::Totals;
+use super::totals::{FeatureTotals, Totals};
 
 /// Writes the page; rows stay in their order.
 pub(crate) fn write(rows: &[Row], options: &Options) -> String {
@@ -34,6 +34,7 @@ pub(crate) fn write(rows: &[Row], options: &Options) -> String {
         ),
     );
     folders(&mut page, rows, options);
+    features(&mut page, rows);
     files(&mut page, rows, options);
     pictures(&mut page, rows);
     page.push_str(TAIL);
@@ -46,6 +47,7 @@ fn folders(page: &mut String, rows: &[Row], options: &Options) {
         "files",
         "failed",
         "no patch",
+        "patch %",
         "compared",
         "below bar",
         "KiB",
@@ -59,13 +61,12 @@ fn folders(page: &mut String, rows: &[Row], options: &Options) {
     page.push_str("</thead><tbody>\n");
     for (name, totals) in Totals::by_folder(rows, options.zooms.len(), &options.bars) {
         push(page, format_args!("<tr><td class=\"l\">{}", escape(&name)));
-        for count in [
-            totals.files,
-            totals.failed,
-            totals.solid,
-            totals.compared,
-            totals.missed,
-        ] {
+        for count in [totals.files, totals.failed, totals.native] {
+            push(page, format_args!("<td>{count}"));
+        }
+        let area = 100.0 * totals.mean_patch_area();
+        push(page, format_args!("<td>{area:.2}"));
+        for count in [totals.compared, totals.missed] {
             push(page, format_args!("<td>{count}"));
         }
         push(
@@ -83,13 +84,27 @@ fn folders(page: &mut String, rows: &[Row], options: &Options) {
     page.push_str("</tbody></table>\n");
 }
 
+fn features(page: &mut String, rows: &[Row]) {
+    page.push_str("<h2>Features that became raster patches</h2>\n<table><thead><tr>");
+    page.push_str("<th class=\"l\">feature<th>files<th>alone<th>patch %</thead><tbody>\n");
+    for (name, totals) in FeatureTotals::all(rows) {
+        let (files, alone, area) = (totals.files, totals.alone, 100.0 * totals.mean_area());
+        let name = escape(&name);
+        push(
+            page,
+            format_args!("<tr><td class=\"l\">{name}<td>{files}<td>{alone}<td>{area:.2}\n"),
+        );
+    }
+    page.push_str("</tbody></table>\n");
+}
+
 fn files(page: &mut String, rows: &[Row], options: &Options) {
     page.push_str("<h2>Files, worst first</h2>\n<p>A click on a heading sorts by it.</p>\n");
     page.push_str("<table class=\"sort\"><thead><tr><th class=\"l\">file<th class=\"l\">folder");
     for zoom in &options.zooms {
         push(page, format_args!("<th>{zoom}&times; dB"));
     }
-    page.push_str("<th>wrong %<th>KiB<th>bake s<th class=\"l\">coverage<th>patches<th class=\"l\">warnings<th class=\"l\">error");
+    page.push_str("<th>wrong %<th>KiB<th>bake s<th class=\"l\">coverage<th>patches<th>patch %<th class=\"l\">warnings<th class=\"l\">error");
     page.push_str("</thead><tbody>\n");
     for row in rows {
         file(page, row, options);
@@ -109,7 +124,7 @@ fn file(page: &mut String, row: &Row, options: &Options) {
         ),
     );
     for index in 0..options.zooms.len() {
-        zoom(page, row.zooms.get(index), options.bars.get(index));
+        zoom(page, row.zooms.get(index), row.bar_db(&options.bars, index));
     }
     match wrong_share(row) {
         Some(share) => push(page, format_args!("<td>{:.3}", 100.0 * share)),
@@ -132,19 +147,20 @@ fn file(page: &mut String, row: &Row, options: &Options) {
     push(
         page,
         format_args!(
-            "<td class=\"l\">{}<td>{}<td class=\"l\">{}<td class=\"l bad\">{note}\n",
+            "<td class=\"l\">{}<td>{}<td>{:.2}<td class=\"l\">{}<td class=\"l bad\">{note}\n",
             escape(&content.coverage_text()),
             content.patches,
+            100.0 * content.patch_area,
             escape(&content.warning_text()),
         ),
     );
 }
 
-fn zoom(page: &mut String, zoom: Option<&Zoom>, bar: Option<&f64>) {
+fn zoom(page: &mut String, zoom: Option<&Zoom>, bar_db: Option<f64>) {
     let Some(zoom) = zoom else {
         return page.push_str("<td>");
     };
-    let class = if bar.is_some_and(|bar| zoom.psnr_db < *bar) {
+    let class = if bar_db.is_some_and(|bar| zoom.psnr_db < bar) {
         " class=\"bad\""
     } else {
         ""
@@ -240,6 +256,7 @@ for (const table of document.querySelectorAll("table.sort")) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::corpus::bars::Bars;
 
     #[test]
     fn the_page_loads_nothing_and_escapes_names() {
@@ -249,13 +266,14 @@ mod tests {
             zooms: vec![Zoom {
                 psnr_db: 39.0,
                 wrong_share: 0.01,
+                noise_db: None,
             }],
             pictures: vec![b"png".to_vec(); 3],
             ..Row::default()
         };
         let options = Options {
             zooms: vec![8.0],
-            bars: vec![40.0],
+            bars: Bars::strict(&[40.0]),
             ..Options::default()
         };
         let page = write(&[row], &options);

@@ -1,0 +1,149 @@
+//! What was found of a case against what is expected.
+
+use std::collections::BTreeMap;
+
+use vtex::patches::patch_cover;
+
+use crate::look::Found;
+use crate::table::Expected;
+
+/// Share of lookups that GPU and twin may answer differently: roundings at edges.
+const APART_SHARE: f64 = 1e-4;
+
+/// What a case is checked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Check {
+    /// It bakes, to a valid file.
+    Bake,
+    /// The whole canvas against the truth.
+    At1x,
+    /// A window at zoom 8.
+    At8x,
+    /// The GPU gives the twin's answers.
+    Gpu,
+    /// The warnings are those expected.
+    Warnings,
+    /// There are raster patches exactly where expected.
+    Patch,
+}
+
+impl Check {
+    const ALL: [(&'static str, Self); 6] = [
+        ("bake", Self::Bake),
+        ("1x", Self::At1x),
+        ("8x", Self::At8x),
+        ("gpu", Self::Gpu),
+        ("warnings", Self::Warnings),
+        ("patch", Self::Patch),
+    ];
+
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        let mut all = Self::ALL.into_iter();
+        all.find(|(known, _)| *known == name)
+            .map(|(_, check)| check)
+    }
+
+    fn name(self) -> &'static str {
+        let mut all = Self::ALL.into_iter();
+        all.find(|(_, known)| *known == self)
+            .map_or("", |(name, _)| name)
+    }
+}
+
+/// Outcome of a case.
+pub(crate) struct Verdict {
+    pub(crate) name: String,
+    /// PSNR at each zoom, dB; empty when it does not bake.
+    pub(crate) psnr_db: Vec<f64>,
+    /// How far above its bars the worse zoom is, dB.
+    pub(crate) margin_db: f64,
+    /// Checks that failed, with what was found.
+    failed: BTreeMap<Check, String>,
+    /// What of that, or of what did not fail, was not expected; empty when all is well.
+    pub(crate) surprises: Vec<String>,
+}
+
+impl Verdict {
+    pub(crate) fn new(expected: &Expected, found: Result<&Found, &str>) -> Self {
+        let mut failed = BTreeMap::new();
+        let mut psnr_db = Vec::new();
+        let mut margin_db = f64::NEG_INFINITY;
+        match found {
+            Err(why) => _ = failed.insert(Check::Bake, why.to_owned()),
+            Ok(found) => {
+                psnr_db = found.views.iter().map(|view| view.least_db()).collect();
+                let margins = psnr_db.iter().zip(expected.least_db);
+                margin_db = margins
+                    .map(|(db, bar)| db - bar)
+                    .fold(f64::INFINITY, f64::min);
+                failures(expected, found, &mut failed);
+            }
+        }
+        let surprises = surprises(expected, &failed);
+        Self {
+            name: expected.name.clone(),
+            psnr_db,
+            margin_db,
+            failed,
+            surprises,
+        }
+    }
+
+    /// Names of the checks that failed, `-` for none.
+    pub(crate) fn failed_names(&self) -> String {
+        let names: Vec<&str> = self.failed.keys().map(|check| check.name()).collect();
+        match names.as_slice() {
+            [] => "-".to_owned(),
+            names => names.join(" "),
+        }
+    }
+
+    /// `name  45.1  43.0  failed checks`.
+    pub(crate) fn line(&self) -> String {
+        let db: Vec<String> = self.psnr_db.iter().map(|db| format!("{db:5.1}")).collect();
+        format!("{:28} {}  {}", self.name, db.join(" "), self.failed_names())
+    }
+}
+
+fn failures(expected: &Expected, found: &Found, failed: &mut BTreeMap<Check, String>) {
+    let checks = [Check::At1x, Check::At8x];
+    for ((view, least), check) in found.views.iter().zip(expected.least_db).zip(checks) {
+        let reached = view.least_db() >= least;
+        if !reached {
+            failed.insert(check, format!("{:.1} dB, below {least}", view.least_db()));
+        }
+    }
+    let apart: usize = found.views.iter().map(|view| view.apart).sum();
+    let lookups: usize = found.views.iter().map(|view| view.lookups).sum();
+    if apart as f64 > APART_SHARE * lookups as f64 {
+        failed.insert(Check::Gpu, format!("{apart} of {lookups} lookups differ"));
+    }
+    let provenance = found.file.provenance.as_ref();
+    let warnings = provenance.map_or(&[][..], |provenance| &provenance.warnings);
+    let mut warnings: Vec<String> = warnings
+        .iter()
+        .map(|warning| format!("{:?}:{}", warning.code, warning.feature))
+        .collect();
+    warnings.sort();
+    warnings.dedup();
+    if warnings != expected.warnings {
+        failed.insert(Check::Warnings, format!("{warnings:?}"));
+    }
+    let patches = patch_cover(&found.file).count;
+    if (patches > 0) != expected.patch {
+        failed.insert(Check::Patch, format!("{patches} patches"));
+    }
+}
+
+fn surprises(expected: &Expected, failed: &BTreeMap<Check, String>) -> Vec<String> {
+    let fresh = failed
+        .iter()
+        .filter(|(check, _)| !expected.fails.contains(check))
+        .map(|(check, found)| format!("{}: {found}", check.name()));
+    let mended = expected
+        .fails
+        .iter()
+        .filter(|check| !failed.contains_key(check))
+        .map(|check| format!("{}: known to fail, but passes: drop the mark", check.name()));
+    fresh.chain(mended).collect()
+}
