@@ -3,6 +3,7 @@
 use kurbo::{Affine, Rect};
 use tiny_skia::Pixmap;
 use usvg::ImageRendering;
+use vtex_format::EMBEDDED_SOURCE;
 
 use crate::color;
 use crate::detail;
@@ -116,7 +117,7 @@ impl Native {
         Some(Patch {
             rect,
             image: mips::chain(level0, rect_uv.map(to_f32)),
-            feature: subtree.feature.to_owned(),
+            feature: EMBEDDED_SOURCE.to_owned(),
             element: subtree.element.clone(),
         })
     }

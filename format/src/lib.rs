@@ -116,7 +116,10 @@ pub use meta::{
     AddressMode, Grid, MAX_GRID_SIDE, MAX_TEXELS_PER_CELL, Meta, Outline, SamplerSettings,
 };
 pub use paint::{PAINT_LINEAR, PAINT_RADIAL, PAINT_SOLID, PaintRecord};
-pub use prov::{FieldError, Finding, Preparation, Provenance, ShapeReport, Warning, WarningCode};
+pub use prov::{
+    EMBEDDED_SOURCE, FieldError, Finding, Preparation, Provenance, ShapeReport, Warning,
+    WarningCode,
+};
 pub use read::validate;
 pub use scope::{
     Block, ListFault, ListFaultKind, MAX_FRAMES, MaskBlock, jump_target, list_blocks, list_frames,

@@ -2,6 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+/// [`ShapeReport::source`] of an image of the SVG's own, stored with the texels it has; other images
+/// stand for what no shape can be.
+pub const EMBEDDED_SOURCE: &str = "embedded image";
+
 /// Stored as bincode in the optional section `PROV`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {

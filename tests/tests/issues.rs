@@ -76,6 +76,7 @@ fn psnr_at_1x(svg: &[u8], file: &VtexFile) -> f64 {
     let terms = Terms {
         longer_px: 512,
         spp: 16,
+        windows: vtex::windows::WINDOWS,
         mask: false,
     };
     let words = vtex_shaders::pack(file, &canvas_options(Filter::Point));

@@ -32,6 +32,7 @@ fn psnr_db(reference: &Reference, file: &VtexFile, spp: u32, zoom: f64) -> f64 {
     let terms = Terms {
         longer_px: 128,
         spp,
+        windows: vtex::windows::WINDOWS,
         mask: false,
     };
     let comparison = Comparison::new(reference, terms).unwrap();

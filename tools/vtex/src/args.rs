@@ -320,6 +320,9 @@ pub struct Compare {
     /// Exit with 7 when a zoom's PSNR is below X dB
     #[arg(long, value_name = "X")]
     pub min_psnr: Option<f64>,
+    /// Windows that each zoom above 1 is compared in
+    #[arg(long, value_name = "N", default_value_t = crate::windows::WINDOWS, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub windows: u32,
     /// Also tell the truth's own noise: the PSNR of half the samples along each side of a pixel
     /// against all, in the worst window of each zoom
     #[arg(long)]

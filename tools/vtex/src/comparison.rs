@@ -16,6 +16,8 @@ pub struct Terms {
     pub longer_px: u32,
     /// Samples a pixel.
     pub spp: u32,
+    /// Windows that a zoom above 1 is compared in.
+    pub windows: u32,
     /// Whether the texture holds coverage only.
     pub mask: bool,
 }
@@ -111,7 +113,7 @@ impl<'a> Comparison<'a> {
     /// # Errors
     /// When the SVG cannot be drawn.
     pub fn windows(&self, zoom: f64) -> Outcome<Vec<View>> {
-        self.finder.windows(zoom)
+        self.finder.windows(zoom, self.terms.windows)
     }
 
     /// One window at `zoom`; windows of several zooms lie about one point.

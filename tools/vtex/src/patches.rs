@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use vtex_format::{COVERAGE_IMAGE, Image, VtexFile};
+use vtex_format::{COVERAGE_IMAGE, EMBEDDED_SOURCE, Image, VtexFile};
 
 /// Places along each side of the canvas that are looked at: a share is right to about 1 in 512.
 const SIDE: u32 = 512;
 
-/// The raster patches of a file. Images that shapes are painted with are none.
+/// The raster patches of a file. Images of the SVG that keep their own texels are none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PatchCover {
     /// How many there are.
@@ -20,11 +20,16 @@ pub struct PatchCover {
 pub fn patch_cover(file: &VtexFile) -> PatchCover {
     let mut covered = vec![false; (SIDE * SIDE) as usize];
     let mut count = 0;
-    for shape in file
+    let reports = file.provenance.iter().flat_map(|told| &told.shapes);
+    let embedded = reports.map(|report| report.source == EMBEDDED_SOURCE);
+    for (shape, embedded) in file
         .shapes
         .iter()
-        .filter(|shape| shape.coverage == COVERAGE_IMAGE)
+        .zip(embedded.chain(std::iter::repeat(false)))
     {
+        if shape.coverage != COVERAGE_IMAGE || embedded {
+            continue;
+        }
         count += 1;
         if let Some(image) = file.images.get(shape.layer_or_image as usize) {
             mark(image, &mut covered);

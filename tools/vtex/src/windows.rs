@@ -5,8 +5,8 @@ use crate::picture::{Picture, View};
 use crate::preview::hash;
 use crate::reference::Reference;
 
-/// Windows a zoom above 1 is compared in.
-pub const WINDOWS: usize = 4;
+/// Windows a zoom above 1 is compared in where nothing else is asked for.
+pub const WINDOWS: u32 = 4;
 /// Difference of neighbouring pixels, of 255, that counts as an edge.
 const EDGE_STEPS: f32 = 24.0;
 /// Pixels along each side of the pictures in which an edge is looked for more closely.
@@ -31,15 +31,15 @@ impl<'a> EdgeFinder<'a> {
         }
     }
 
-    /// The windows of `1 / zoom` of the canvas that are compared: one, the whole, at zoom 1.
+    /// The `count` windows of `1 / zoom` of the canvas that are compared; at zoom 1 one, the whole.
     ///
     /// # Errors
     /// When the reference cannot be drawn.
-    pub fn windows(&self, zoom: f64) -> Outcome<Vec<View>> {
+    pub fn windows(&self, zoom: f64, count: u32) -> Outcome<Vec<View>> {
         if zoom <= 1.0 {
             return Ok(vec![View::WHOLE]);
         }
-        (0..WINDOWS as u64)
+        (0..u64::from(count))
             .map(|seed| self.window(zoom, seed))
             .collect()
     }
@@ -130,7 +130,7 @@ mod tests {
         let overview = reference.render(View::WHOLE, [100, 60]).unwrap();
         let finder = EdgeFinder::new(&reference, overview);
         for zoom in [8.0, 256.0, 4096.0] {
-            for view in finder.windows(zoom).unwrap() {
+            for view in finder.windows(zoom, WINDOWS).unwrap() {
                 assert!(view.u0 >= 0.0 && view.v1 <= 1.0, "{view:?}");
                 let picture = reference.render_with(view, [16, 16], 2).unwrap();
                 assert!(!edge_pixels(&picture).is_empty(), "zoom {zoom}: {view:?}");

@@ -99,6 +99,7 @@ fn terms(args: &Compare, file: &VtexFile) -> Terms {
     Terms {
         longer_px: args.size,
         spp: args.lookup.spp,
+        windows: args.windows,
         mask: file.meta.sampler.mask,
     }
 }

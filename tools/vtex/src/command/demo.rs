@@ -20,6 +20,7 @@ use crate::raster::{self, RasterTexture};
 use crate::reference::{Edges, Reference};
 use crate::texture::{self, Shooter};
 use crate::tracing::{self, SceneKind, Settings};
+use crate::windows::WINDOWS;
 
 /// Zooms that are shown.
 const ZOOMS: [f64; 4] = [1.0, 8.0, 32.0, 256.0];
@@ -132,6 +133,7 @@ impl Drawing {
             Terms {
                 longer_px,
                 spp: SPP,
+                windows: WINDOWS,
                 mask: false,
             },
         )?;

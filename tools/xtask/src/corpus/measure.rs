@@ -103,8 +103,11 @@ impl Bench<'_> {
     fn compare(&self, file: &str, index: usize, zooms: &str) -> Command {
         let svg = self.options.folder.join(file);
         let mut compare = self.command("compare", &[&svg, &self.baked(index)]);
-        let [size, spp] = [self.options.size, self.options.spp].map(|number| number.to_string());
+        let options = self.options;
+        let [size, spp, windows] =
+            [options.size, options.spp, options.windows].map(|number| number.to_string());
         compare.args(["--zoom", zooms, "--size", &size, "--spp", &spp]);
+        compare.args(["--windows", &windows]);
         // What the bake sees of fonts the comparison must see.
         let mut bake = self.options.bake.iter();
         while let Some(option) = bake.next() {

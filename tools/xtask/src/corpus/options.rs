@@ -19,6 +19,7 @@ file fails or too many miss their bar.
   --out DIR         where to write; default target/corpus
   --vtex FILE       the vtex to run; default: target/release/vtex, built first
   --zoom Z,...      zooms to compare at; default 1,8
+  --windows N       places that zooms above 1 are compared in; default 4
   --size N          pixels of the pictures' longer side; default 512
   --spp N           samples a pixel; default 16
   --max-zoom Z      of the bake
@@ -41,6 +42,7 @@ pub(crate) struct Options {
     pub(crate) vtex: Option<PathBuf>,
     /// At least one.
     pub(crate) zooms: Vec<f64>,
+    pub(crate) windows: u32,
     pub(crate) size: u32,
     pub(crate) spp: u32,
     pub(crate) bars: Bars,
@@ -72,6 +74,7 @@ impl Options {
                 "--size" => options.size = number(value()?)?,
                 "--spp" => options.spp = number(value()?)?,
                 "--bar" => strict = list(value()?)?,
+                "--windows" => options.windows = number(value()?)?,
                 "--only-native" => options.only_native = true,
                 "--filter" => options.filter.clone_from(value()?),
                 "--pictures" => options.pictures = number(value()?)?,
@@ -118,6 +121,7 @@ impl Default for Options {
             out: "target/corpus".into(),
             vtex: None,
             zooms: vec![1.0, 8.0],
+            windows: 4,
             size: 512,
             spp: 16,
             bars: Bars::default(),
