@@ -22,7 +22,8 @@ use crate::warning::Warnings;
 const FINEST_DENSITY: f64 = 8.0;
 /// Below this a patch is visibly blurred soon after mip 0 is left behind: worth a warning.
 const WANTED_DENSITY: f64 = 4.0;
-/// Texels of a patch's longer side; RGBA of that square is 21 MiB with its mips.
+/// Texels of a patch's longer side, besides up to three at its ends; RGBA of that square is 21 MiB
+/// with its mips.
 const MAX_PATCH_SIDE: f64 = 2048.0;
 /// Level 0 texels of all patches of a file: 32 MiB with their mips.
 const MAX_PATCH_TEXELS: f64 = 6_291_456.0;
@@ -236,7 +237,7 @@ impl PatchSettings {
 
     fn density_for_side(self, bounds: Rect) -> f64 {
         let side = bounds.width().max(bounds.height()) * self.base_scale();
-        (MAX_PATCH_SIDE - 3.0).max(1.0) / side.max(f64::MIN_POSITIVE)
+        MAX_PATCH_SIDE / side.max(f64::MIN_POSITIVE)
     }
 
     /// Bounds of one subtree's density: side, layers, patterns, filters.

@@ -123,8 +123,8 @@ fn groups_and_masks_are_whole() {
 #[test]
 fn frames_are_counted_to_the_bound() {
     let nested = |depth: usize| format!("{} e {}", "( ".repeat(depth), ") ".repeat(depth));
-    assert_eq!(list_frames(&list(&nested(16))), Ok(16));
-    let error = list_frames(&list(&nested(17))).map_err(|fault| fault.kind);
+    assert_eq!(list_frames(&list(&nested(32))), Ok(32));
+    let error = list_frames(&list(&nested(33))).map_err(|fault| fault.kind);
     assert_eq!(error, Err(Frames));
     // Clips that each guard one entry more than the next.
     let clips = |depth: usize| -> String {
@@ -133,8 +133,8 @@ fn frames_are_counted_to_the_bound() {
             .collect();
         tests + &"e ".repeat(depth)
     };
-    assert_eq!(list_frames(&list(&clips(16))), Ok(16));
-    for depth in [17, 60, 70, 2000] {
+    assert_eq!(list_frames(&list(&clips(32))), Ok(32));
+    for depth in [33, 60, 70, 2000] {
         let error = list_frames(&list(&clips(depth))).map_err(|fault| fault.kind);
         assert_eq!(error, Err(Frames), "{depth}");
     }

@@ -120,7 +120,7 @@ fn deep(file: &mut VtexFile) {
         last: true,
         ..close
     };
-    let list = [vec![open; 17], vec![close; 16], vec![last]].concat();
+    let list = [vec![open; 33], vec![close; 32], vec![last]].concat();
     let words = list.iter().flat_map(|entry| entry.encode().unwrap());
     file.entries.extend(words);
 }
