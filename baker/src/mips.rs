@@ -32,6 +32,19 @@ impl LinearImage {
             .collect();
         Self { size, texels }
     }
+
+    /// Mirrors it along x, along y.
+    pub(crate) fn mirror(&mut self, [along_x, along_y]: [bool; 2]) {
+        let width = self.size[0] as usize;
+        if along_x {
+            self.texels.chunks_exact_mut(width).for_each(<[_]>::reverse);
+        }
+        if along_y {
+            // All texels backwards, each row then forwards again.
+            self.texels.reverse();
+            self.texels.chunks_exact_mut(width).for_each(<[_]>::reverse);
+        }
+    }
 }
 
 /// Where one texel's extent lies among the finer ones along an axis.

@@ -14,14 +14,14 @@ use crate::svg::Subtree;
 
 /// Texels of all images of a file that keep theirs: 32 MiB with their mips. Those beyond are
 /// patches like any other.
-pub(crate) const MAX_TEXELS: u64 = 6_291_456;
+const MAX_TEXELS: u64 = 6_291_456;
 /// Texels that an image is enlarged to by resvg: between texels lookups are bilinear, resvg is
 /// bicubic, or takes the nearest.
 const MAX_ENLARGED_TEXELS: u64 = 1 << 20;
 /// Most texels along each axis for one of an image that is smoothed.
-const MAX_SMOOTH: u64 = 8;
+const MAX_SMOOTH: u32 = 8;
 /// And of one that is not: the blur left between its texels is a 16th of one wide.
-const MAX_SHARP: u64 = 16;
+const MAX_SHARP: u32 = 16;
 /// Share of a scale below which a turn is none.
 const UPRIGHT: f64 = 1e-6;
 
@@ -32,10 +32,12 @@ pub(crate) struct Native {
     size: [u32; 2],
     /// Stored texels for each along both axes.
     enlarged: u32,
+    /// Whether it is mirrored along x, along y.
+    mirrored: [bool; 2],
 }
 
 impl Native {
-    /// `None` for an image that is turned or mirrored: the rectangles of a file's images are upright.
+    /// `None` for an image that is turned: the rectangles of a file's images are upright.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -43,7 +45,8 @@ impl Native {
     )]
     pub(crate) fn of(image: &usvg::Image, canvas_from_image: Affine) -> Option<Self> {
         let [a, b, c, d, ..] = canvas_from_image.as_coeffs();
-        let upright = a > 0.0 && d > 0.0 && b.abs().max(c.abs()) <= UPRIGHT * a.min(d);
+        let least = a.abs().min(d.abs());
+        let upright = least > 0.0 && b.abs().max(c.abs()) <= UPRIGHT * least;
         let size = [image.size().width(), image.size().height()];
         if !upright || size.iter().any(|side| !(1.0..=32_768.0).contains(side)) {
             return None;
@@ -58,10 +61,13 @@ impl Native {
             | ImageRendering::Smooth
             | ImageRendering::HighQuality => MAX_SMOOTH,
         };
-        let enlarged = (MAX_ENLARGED_TEXELS / texels).isqrt().clamp(1, most);
+        let enlarged = (MAX_ENLARGED_TEXELS / texels)
+            .isqrt()
+            .clamp(1, u64::from(most));
         Some(Self {
             size,
             enlarged: enlarged as u32,
+            mirrored: [a < 0.0, d < 0.0],
         })
     }
 
@@ -69,16 +75,11 @@ impl Native {
         self.size.map(|side| side * self.enlarged)
     }
 
-    /// Takes its texels out of `left`, enlarged as far as there are enough; `None` where there are
-    /// too few for the image itself.
-    pub(crate) fn within(self, left: &mut u64) -> Option<Self> {
-        let sizes = (1..=self.enlarged).rev();
-        let fitting = sizes.map(|enlarged| Self { enlarged, ..self });
-        let (fitting, rest) = fitting
-            .map(|native| (native, left.checked_sub(native.texels())))
-            .find(|(_, rest)| rest.is_some())?;
-        *left = rest?;
-        Some(fitting)
+    fn enlarged_at_most(self, most: u32) -> Self {
+        Self {
+            enlarged: self.enlarged.min(most),
+            ..self
+        }
     }
 
     fn texels(self) -> u64 {
@@ -100,6 +101,7 @@ impl Native {
             size,
             texels: texels.iter().map(|&t| color::linear_from_skia(t)).collect(),
         };
+        level0.mirror(self.mirrored);
         // What the cubic adds may be nothing.
         if self.enlarged > 1 {
             level0 = detail::fitted(level0);
@@ -120,6 +122,29 @@ impl Native {
             feature: EMBEDDED_SOURCE.to_owned(),
             element: subtree.element.clone(),
         })
+    }
+}
+
+/// Enlarges all images of a drawing as far as there are texels for; the last ones are patches where
+/// there are too few for the images themselves.
+pub(crate) fn share_out<'a>(images: impl Iterator<Item = &'a mut Option<Native>>) {
+    let mut images: Vec<&mut Option<Native>> = images.filter(|image| image.is_some()).collect();
+    let total = |images: &[&mut Option<Native>], most: u32| -> u64 {
+        let images = images.iter().flat_map(|image| image.iter());
+        images
+            .map(|image| image.enlarged_at_most(most).texels())
+            .sum()
+    };
+    let mut most = MAX_SHARP;
+    while most > 1 && total(&images, most) > MAX_TEXELS {
+        most -= 1;
+    }
+    let mut left = MAX_TEXELS;
+    for image in &mut images {
+        let kept = image.map(|image| image.enlarged_at_most(most));
+        let rest = kept.and_then(|kept| left.checked_sub(kept.texels()));
+        **image = kept.filter(|_| rest.is_some());
+        left = rest.unwrap_or(left);
     }
 }
 
@@ -203,15 +228,38 @@ mod tests {
     }
 
     #[test]
+    fn a_mirrored_image_keeps_its_texels() {
+        let upright = baked(&image("width='60' height='40'"));
+        let places = "translate(100 100) scale(-1 -1)";
+        let turned = baked(&image(&format!(
+            "width='60' height='40' transform='{places}'"
+        )));
+        assert!(turned.provenance.as_ref().unwrap().warnings.is_empty());
+        let [words, mirrored] = [&upright, &turned].map(|file| pack(file, &PackOptions::default()));
+        for (u, v) in [(0.07, 0.03), (0.21, 0.33), (0.55, 0.12), (0.59, 0.39)] {
+            let seen = cpu::Sampler::new(&words).sample([u, v], [0.0; 4]);
+            let again = cpu::Sampler::new(&mirrored).sample([1.0 - u, 1.0 - v], [0.0; 4]);
+            let near = seen.iter().zip(again).all(|(a, b)| (a - b).abs() < 2e-3);
+            assert!(near, "{u} {v}: {seen:?} {again:?}");
+        }
+    }
+
+    #[test]
     fn images_share_a_budget() {
         let native = super::Native {
             size: [1000, 1000],
             enlarged: 2,
+            mirrored: [false; 2],
         };
-        let mut left = 5_500_000;
-        assert_eq!(native.within(&mut left).unwrap().enlarged, 2);
-        assert_eq!(native.within(&mut left).unwrap().enlarged, 1);
-        assert!(native.within(&mut left).is_none());
-        assert_eq!(left, 500_000);
+        let shared = |count: usize| {
+            let mut images = vec![Some(native); count];
+            super::share_out(images.iter_mut());
+            let enlarged = images.iter().map(|image| image.map(|image| image.enlarged));
+            enlarged.collect::<Vec<_>>()
+        };
+        assert_eq!(shared(1), [Some(2)]);
+        assert_eq!(shared(2), [Some(1); 2]);
+        let most = [[Some(1); 6].as_slice(), &[None; 2]].concat();
+        assert_eq!(shared(8), most);
     }
 }

@@ -64,7 +64,6 @@ pub(crate) fn plan<'a>(
         steps: Vec::new(),
         nodes: Vec::new(),
         element_count: 0,
-        native_texels_left: native::MAX_TEXELS,
     };
     let place = Place {
         canvas_from_user: Affine::IDENTITY,
@@ -79,6 +78,10 @@ pub(crate) fn plan<'a>(
             "outlines have more than {MAX_OUTLINE_ELEMENTS} path elements"
         )));
     }
+    native::share_out(walker.steps.iter_mut().filter_map(|step| match step {
+        Step::Raster(subtree) => Some(&mut subtree.native),
+        Step::Shape(_) | Step::Clip(_) => None,
+    }));
     Ok(Plan {
         canvas_size,
         steps: walker.steps,
@@ -100,8 +103,6 @@ pub(super) struct Walker<'a, 'w> {
     pub(super) nodes: Vec<tree::Node>,
     /// Path elements of all outlines so far; past the limit nothing more is made.
     pub(super) element_count: usize,
-    /// Texels that further images may keep.
-    native_texels_left: u64,
 }
 
 /// What ancestors hand down.
@@ -354,7 +355,6 @@ impl<'a> Walker<'a, '_> {
         if !bounds.is_finite() || !self.shows(bounds) {
             return;
         }
-        let native = native.and_then(|native| native.within(&mut self.native_texels_left));
         self.show(Step::Raster(Subtree {
             node,
             canvas_from_parent: place.canvas_from_user,

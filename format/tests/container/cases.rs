@@ -1,4 +1,5 @@
 //! For every issue there is, a file or a value that has it.
+// tidy: long because it is one table of all issues.
 
 use std::collections::BTreeSet;
 

@@ -1,7 +1,7 @@
 //! How many entries and segments each cell holds, as numbers and as pictures.
 
 use serde_json::{Value, json};
-use vtex_format::{CellWord, CurveHeader, Entry, EntryKind, VtexFile};
+use vtex_format::{CellWord, CurveHeader, Entry, VtexFile};
 
 /// Pixels along a cell's side in the heat map, so that small grids can be seen.
 const CELL_PX: u32 = 8;
@@ -59,7 +59,7 @@ fn segment_count(file: &VtexFile, entry: Entry) -> u32 {
     let words = file.curves.get(entry.data as usize..).unwrap_or(&[]);
     let header = words.first_chunk().copied().and_then(CurveHeader::decode);
     header
-        .filter(|_| entry.kind == EntryKind::Curves)
+        .filter(|_| entry.kind.has_record())
         .map_or(0, |header| header.line_count + header.quad_count)
 }
 

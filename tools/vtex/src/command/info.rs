@@ -81,7 +81,11 @@ pub(crate) fn feature_names(features: u32) -> Vec<&'static str> {
         (Features::OUTLINE, "outline"),
         (Features::TEXTURE_MATRIX, "texture-matrix"),
         (Features::CURVES, "curves"),
+        (Features::RAMPS, "ramps"),
         (Features::GRADIENTS, "gradients"),
+        (Features::CLIPS, "clips"),
+        (Features::GROUPS, "groups"),
+        (Features::BLENDS, "blends"),
     ];
     names
         .into_iter()
