@@ -76,6 +76,7 @@ sources! {
     "vtex/hit_over",
     "vtex/hit_over_gradient",
     "vtex/image",
+    "vtex/image_entry",
     "vtex/inside_any",
     "vtex/inside_curves",
     "vtex/inside_full",

@@ -1,7 +1,5 @@
 //! A file's shader holds the code that its drawing needs and no other.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
-
 use std::collections::BTreeSet;
 use std::path::Path;
 

@@ -101,6 +101,7 @@ fn code_of_absent_features_is_not_in_the_text() {
             ("vtex_reach_", ramps && one_walk),
             ("vtex_ramp_", ramps),
             ("vtex_image_", images || has(Features::MIPS)),
+            ("fn vtex_image_entry(", images),
             ("vtex_texel", images || has(Features::MIPS)),
             ("_outline", edges && has(Features::OUTLINE)),
             ("vtex_over", ramps && (translucent && !mask || scopes)),

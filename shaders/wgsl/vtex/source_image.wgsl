@@ -1,7 +1,7 @@
 //!use core/layout
 //!use vtex/footprint
 //!use vtex/fill
-//!use vtex/image
+//!use vtex/image_entry
 // Colour of an entry: a paint or an image's texels.
 
 fn vtex_source(vt: VtexTexture, head: u32, lookup: VtexLookup) -> VtexValue {

@@ -3,7 +3,7 @@
 //!use vtex/words
 //!use vtex/footprint
 //!use vtex/gradient
-//!use vtex/image
+//!use vtex/image_entry
 // Colour of an entry at a lookup as compositing wants it: a solid paint's, a gradient's or an
 // image's.
 
