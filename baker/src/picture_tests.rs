@@ -446,3 +446,11 @@ fn raster_mode_is_one_patch_of_the_canvas() {
     assert_eq!(patch.rect, kurbo::Rect::new(0.0, 0.0, 200.0, 200.0));
     assert_eq!(patch.image.rect_uv, [0.0, 0.0, 1.0, 1.0]);
 }
+
+#[test]
+fn warnings_name_the_element_that_has_the_filter() {
+    let body = "<filter id='f'><feGaussianBlur stdDeviation='4'/></filter><g id='outer'>\
+                <rect id='soft' x='40' y='40' width='90' height='90' filter='url(#f)'/></g>";
+    let drawing = drawing_of(&svg_of(body), &BakeConfig::default());
+    assert_eq!(drawing.warnings[0].element, "soft");
+}

@@ -361,7 +361,7 @@ impl<'a> Walker<'a, '_> {
             bounds,
             native,
             feature,
-            element: place.element.to_owned(),
+            element: own_id(node).unwrap_or(place.element).to_owned(),
         }));
     }
 
@@ -396,6 +396,19 @@ fn foreign(paint: &usvg::Paint) -> Option<&'static str> {
         usvg::Paint::RadialGradient(it) => has_too_many_stops(it).then_some("radialGradient"),
         usvg::Paint::Pattern(_) => Some("pattern"),
     }
+}
+
+/// The id of a node, or of the one that it stands for: usvg puts groups around what has effects and
+/// leaves the id inside.
+fn own_id(node: &Node) -> Option<&str> {
+    let inner = match node {
+        Node::Group(group) => match group.children() {
+            [only] if group.id().is_empty() => own_id(only),
+            _ => None,
+        },
+        _ => None,
+    };
+    inner.or_else(|| Some(node.id()).filter(|id| !id.is_empty()))
 }
 
 /// What a node may touch. usvg's `abs_*` boxes are not used: they are wrong inside the groups it
