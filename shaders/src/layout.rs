@@ -135,9 +135,9 @@ mod cell = "CELL" {
 /// is one item whose first word is [`vtex_format::Entry::data`]. The last item of an entry carries
 /// what belongs to all of it: index, base, kind, rule, opaque and last.
 ///
-/// An entry that draws nothing has [`CONTROL_BIT`](super::item::CONTROL_BIT) there. A test is
-/// curves; others are one item whose kind is full, with [`JUMP`](super::item::JUMP),
-/// [`OPEN`](super::item::OPEN), [`CLOSE`](super::item::CLOSE) or [`MASK`](super::item::MASK). The
+/// An entry that draws nothing has [`CONTROL_BIT`](item::CONTROL_BIT) there. A test is
+/// curves; others are one item whose kind is full, with [`JUMP`](item::JUMP),
+/// [`OPEN`](item::OPEN), [`CLOSE`](item::CLOSE) or [`MASK`](item::MASK). The
 /// index of a test, jump or mask is the number of items to pass over, 0 for all that follow; the
 /// opaque bit of a test or jump says that it is done inside. First words: of open 1 when isolated;
 /// of mask its kind; of close opacity (float), blend mode and 1 when isolated.
@@ -255,7 +255,7 @@ mod paint = "PAINT" {
 }
 
 /// A gradient, in groups of four words: of circles three, else one; then the offsets of its stops,
-/// the last group filled up with [`OFFSET_END`](super::OFFSET_END), then four floats a stop: straight
+/// the last group filled up with [`OFFSET_END`](OFFSET_END), then four floats a stop: straight
 /// alpha, sRGB-encoded. Of the first group the floats a, c, e of `x = a u + c v + e`, which is t
 /// of a line, and a word whose parts these are. Of circles then b, d, f of `y = b u + d v + f` and
 /// [`vtex_format::GradientShape::leading`]; distance, focal radius and two zeros.

@@ -146,16 +146,16 @@ fn the_others_of_a_folder_are_baked_all_the_same() {
     );
     bench.put("in/hog.svg", large());
     bench.put("in/slow.svg", slow());
-    let limits = ["--timeout", "1", "--max-memory", "400", "--threads", "1"];
+    let limits = ["--timeout", "4", "--max-memory", "200", "--threads", "1"];
     let output = bench.run(&[&["bake", "in", "-o", "out"], &limits[..]].concat());
     let text = stderr(&output);
     assert_eq!(output.status.code(), Some(8), "{text}");
     assert!(
-        text.contains("hog.svg: limit exceeded: needs more than 400 MiB"),
+        text.contains("hog.svg: limit exceeded: needs more than 200 MiB"),
         "{text}"
     );
     assert!(
-        text.contains("slow.svg: limit exceeded: not baked within 1 s"),
+        text.contains("slow.svg: limit exceeded: not baked within 4 s"),
         "{text}"
     );
     assert!(text.contains("4 of 6 baked, 2 failed"), "{text}");
