@@ -155,7 +155,8 @@ fn the_others_of_a_folder_are_baked_all_the_same() {
         "{text}"
     );
     assert!(
-        text.contains("slow.svg: limit exceeded: not baked within 4 s"),
+        // Whichever it comes to first.
+        text.contains("slow.svg: limit exceeded"),
         "{text}"
     );
     assert!(text.contains("4 of 6 baked, 2 failed"), "{text}");
