@@ -7,17 +7,18 @@ use vtex_format::{CellWord, EntryKind, VtexFile};
 
 use crate::{
     config::{BakeConfig, Mode, Resources},
-    drawing::{Drawing, FillRule, Item},
-    encode::assemble,
+    coverage::{
+        grid::Lattice,
+        judge::{Coverage, Verdict},
+        placed::{Placed, PlacedKind, place},
+    },
+    drawing::{Drawing, FillRule, Item, tree::Tree},
     geometry::line_box_distance,
-    grid::Lattice,
-    judge::{Coverage, Verdict},
-    placed::{Placed, PlacedKind, place},
+    pipeline::assemble,
     testing::{
         Evaluator, Random, corpus_file, corpus_root, drawing_of, paint_at, random_outline, shape,
         stored_at,
     },
-    tree::Tree,
 };
 
 fn bake(drawing: Drawing, config: &BakeConfig) -> VtexFile {
