@@ -8,14 +8,15 @@ use vtex_testing::{Corpus, slow};
 
 use crate::{
     config::{BakeConfig, Mode, Resources},
-    drawing::{Drawing, FillRule, Item},
-    encode::assemble,
+    coverage::{
+        grid::Lattice,
+        judge::{Coverage, Verdict},
+        placed::{Placed, PlacedKind, place},
+    },
+    drawing::{Drawing, FillRule, Item, tree::Tree},
     geometry::line_box_distance,
-    grid::Lattice,
-    judge::{Coverage, Verdict},
-    placed::{Placed, PlacedKind, place},
+    pipeline::assemble,
     testing::{Evaluator, Random, drawing_of, paint_at, random_outline, shape, stored_at},
-    tree::Tree,
 };
 
 fn bake(drawing: Drawing, config: &BakeConfig) -> VtexFile {

@@ -6,7 +6,7 @@ use vtex_format::{Gradient, VtexFile};
 use crate::{
     config::{BakeConfig, Resources},
     drawing::{Drawing, FillRule, Item, Paint, Shape, ShapeSource, to_f32},
-    gradient,
+    oracle::gradient,
 };
 
 /// A shape by hand.
