@@ -6,10 +6,10 @@ use std::path::Path;
 use exr::prelude::{Image, Vec2, WritableImage};
 use vtex_format::VtexFile;
 use vtex_runtime::{Film, Gpu, LoadOptions, ToneMap, TraceOptions, Tracer, scene};
+use vtex_truth::picture::encode_png;
 
 use crate::console::Console;
 use crate::failure::{Failure, Outcome};
-use crate::picture::encode_png;
 use crate::texture::gpu_failure;
 
 /// What is in the picture.
@@ -81,11 +81,11 @@ pub fn encode(film: &Film, kind: SceneKind, path: &Path) -> Outcome<Vec<u8>> {
                 SceneKind::Plane => ToneMap::Clip,
                 SceneKind::Showroom => ToneMap::Reinhard,
             };
-            encode_png(
+            Ok(encode_png(
                 film.size,
                 &film.to_srgb8_with(1.0, tone_map),
                 png::Compression::Balanced,
-            )
+            )?)
         }
         "exr" => encode_exr(film),
         _ => Err(Failure::usage(format!(
