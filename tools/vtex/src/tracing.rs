@@ -6,6 +6,7 @@ use std::path::Path;
 use exr::prelude::{Image, Vec2, WritableImage};
 use vtex_format::VtexFile;
 use vtex_runtime::{Film, Gpu, LoadOptions, ToneMap, TraceOptions, Tracer, scene};
+use vtex_scenes::showroom;
 use vtex_truth::picture::encode_png;
 
 use crate::console::Console;
@@ -48,7 +49,7 @@ pub fn trace(files: Vec<VtexFile>, settings: Settings, console: Console) -> Outc
     console.detail(&format!("tracing on {}", gpu.adapter_name()));
     let scene = match (settings.kind, files.first()) {
         (SceneKind::Plane, Some(file)) => scene::plane(file.clone(), LoadOptions::default()),
-        _ => scene::showroom(files),
+        _ => showroom(files),
     };
     let options = TraceOptions {
         max_bounces: settings.bounces,
