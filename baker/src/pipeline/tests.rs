@@ -122,7 +122,7 @@ fn measure_against_fdsm() {
         drawing.tree = crate::drawing::tree::Tree::flat(1);
         let placed = {
             let forced =
-                crate::coverage::judge::Verdict::forced(crate::coverage::judge::Coverage::Msdf);
+                crate::coverage::verdict::Verdict::forced(crate::coverage::verdict::Coverage::Msdf);
             crate::coverage::placed::place(&drawing, &lattice, &[forced])
         };
         let area = placed[0].bounds();

@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use crate::{BakeConfig, Mode, Resources, bake, draw, testing::corpus_root};
+use crate::{BakeConfig, Mode, Resources, bake, pipeline::draw, testing::corpus_root};
 
 /// What usvg or resvg themselves do not finish within a minute; only a process limit helps.
 const ENDLESS: [&str; 4] = [
