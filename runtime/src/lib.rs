@@ -14,8 +14,8 @@ mod error;
 mod gpu;
 mod load;
 mod mesh;
+mod plane;
 pub mod scene;
-mod stage;
 mod tracer;
 
 pub use batch::{BatchSampler, Trust};
