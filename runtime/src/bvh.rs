@@ -58,8 +58,50 @@ pub(crate) fn triangle(corners: [Vec3A; 3]) -> Triangle {
 mod tests {
     use obvhs::ray::{Ray, RayHit};
 
+    use glam::{Affine3A, Vec3};
+
     use super::*;
-    use crate::{Camera, Gpu, RayQuery, Scene, TraceOptions, Tracer, scene};
+    use crate::{
+        Camera, Gpu, Instance, Material, Mesh, RayQuery, RectLight, Scene, Sky, TraceOptions,
+        Tracer,
+    };
+
+    /// Round and flat things on a floor under a light, so that the hierarchy is deep and leaves
+    /// lie at all depths.
+    fn crowded_scene() -> Scene {
+        let lying = Affine3A::from_rotation_x(-std::f32::consts::FRAC_PI_2);
+        let at = |x: f32, y: f32, z: f32| Affine3A::from_translation(Vec3::new(x, y, z));
+        let placed = [
+            (Mesh::plane(20.0, 20.0), lying),
+            (Mesh::sphere(0.5, 128, 1.0), at(0.0, 0.5, 0.0)),
+            (Mesh::cylinder(0.4, 0.8, 96, 1.0), at(1.2, 0.4, 0.1)),
+            (Mesh::cuboid(Vec3::ONE), at(-1.2, 0.5, -0.2)),
+        ];
+        let place = |(mesh, &(_, world_from_object))| Instance {
+            mesh,
+            material: 0,
+            world_from_object,
+        };
+        Scene {
+            instances: placed.iter().enumerate().map(place).collect(),
+            meshes: placed.into_iter().map(|(mesh, _)| mesh).collect(),
+            materials: vec![Material::default()],
+            textures: Vec::new(),
+            sky: Sky::uniform(1.0),
+            lights: vec![RectLight {
+                corner: Vec3::new(-1.0, 3.0, -1.0),
+                edge_u: Vec3::new(2.0, 0.0, 0.0),
+                edge_v: Vec3::new(0.0, 0.0, 2.0),
+                radiance: [1.0; 3],
+            }],
+            camera: Camera {
+                position: Vec3::new(0.25, 1.45, 4.9),
+                target: Vec3::new(0.0, 0.42, 0.0),
+                up: Vec3::Y,
+                fov_y_rad: 0.55,
+            },
+        }
+    }
 
     /// All triangles in the order in which the tracer counts them.
     fn world_triangles(scene: &Scene) -> Vec<Triangle> {
@@ -105,7 +147,7 @@ mod tests {
             return;
         }
         let gpu = Gpu::headless().expect("an adapter; VTEX_GPU=off skips this test");
-        let scene = scene::showroom(Vec::new());
+        let scene = crowded_scene();
         let options = TraceOptions::default();
         let tracer = Tracer::new(&gpu.device, &gpu.queue, &scene, [8, 8], &options).unwrap();
         let rays = primary_rays(&scene.camera, [480, 320]);

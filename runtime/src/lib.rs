@@ -19,9 +19,9 @@ mod load;
 #[cfg(feature = "tracer")]
 mod mesh;
 #[cfg(feature = "tracer")]
-pub mod scene;
+mod plane;
 #[cfg(feature = "tracer")]
-mod stage;
+pub mod scene;
 #[cfg(feature = "tracer")]
 mod tracer;
 

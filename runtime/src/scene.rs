@@ -5,7 +5,7 @@ use vtex_format::VtexFile;
 
 use crate::{Camera, LoadOptions, Mesh, RuntimeError};
 
-pub use crate::stage::{plane, plane_camera, showroom};
+pub use crate::plane::{canvas_aspect, plane, plane_camera};
 
 /// Most area lights of a scene: they lie in one uniform block.
 pub const MAX_LIGHTS: usize = 16;

@@ -11,15 +11,13 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
-use vtex::args::Filter;
-use vtex::picture::{Picture, View, fit_size};
-use vtex::preview::Shot;
-use vtex::reference::{Edges, Reference};
-use vtex::texture::canvas_options;
 use vtex_baker::{BakeConfig, Resources, bake};
 use vtex_format::{COVERAGE_IMAGE, EMBEDDED_SOURCE, VtexFile, Warning, WarningCode};
 use vtex_shaders::{cpu, pack};
 use vtex_tests::fonts;
+use vtex_truth::picture::{Picture, Shot, View, fit_size};
+use vtex_truth::reference::{Edges, Reference};
+use vtex_truth::texture::{FilterMode, canvas_options};
 
 /// Pixels of the pictures' longer side.
 const LONGER_PX: u32 = 256;
@@ -137,7 +135,7 @@ fn look(svg: &[u8]) -> Result<(), String> {
         size_px,
         spp: SPP,
     };
-    let words = pack(&file, &canvas_options(Filter::Point));
+    let words = pack(&file, &canvas_options(FilterMode::Point));
     let sampler = cpu::Sampler::new(&words);
     let ours = shot.shoot(|uv, _| sampler.sample(uv, [0.0; 4]));
     explain(&file, &differing(&truth.unwrap(), &ours))

@@ -4,12 +4,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use vtex::args::Filter;
-use vtex::comparison::{Comparison, Terms};
-use vtex::reference::{Edges, Reference};
-use vtex::texture::{Shooter, canvas_options};
 use vtex_baker::{BakeConfig, Resources};
 use vtex_format::{Limits, VtexFile, WarningCode, validate};
+use vtex_truth::comparison::{Comparison, Terms};
+use vtex_truth::reference::{Edges, Reference};
+use vtex_truth::texture::{FilterMode, Shooter, canvas_options};
 
 /// The corpus, or `None` (said on stderr) when it is absent.
 fn corpus() -> Option<PathBuf> {
@@ -76,10 +75,10 @@ fn psnr_at_1x(svg: &[u8], file: &VtexFile) -> f64 {
     let terms = Terms {
         longer_px: 512,
         spp: 16,
-        windows: vtex::windows::WINDOWS,
+        windows: vtex_truth::comparison::WINDOWS,
         mask: false,
     };
-    let words = vtex_shaders::pack(file, &canvas_options(Filter::Point));
+    let words = vtex_shaders::pack(file, &canvas_options(FilterMode::Point));
     let shooter = Shooter::Cpu { words };
     let report = Comparison::new(&reference, terms)
         .and_then(|comparison| comparison.measure(1.0, |shot| shooter.shoot(shot)))

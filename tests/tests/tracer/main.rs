@@ -280,7 +280,7 @@ fn half_transparent_surfaces_let_half_the_light_through() {
 #[test]
 fn same_seed_same_picture_however_it_is_cut() {
     let Some(gpu) = gpu() else { return };
-    let scene = scene::showroom(vec![quarters()]);
+    let scene = vtex_scenes::showroom(vec![quarters()]);
     let options = TraceOptions::default();
     let picture = |cuts: &[u32], options: &TraceOptions| {
         let mut tracer = Tracer::new(&gpu.device, &gpu.queue, &scene, [40, 30], options).unwrap();

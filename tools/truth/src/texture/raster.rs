@@ -2,10 +2,9 @@
 
 use rayon::prelude::*;
 
-use crate::failure::Outcome;
-use crate::picture::{Picture, encode_png, fit_size};
+use crate::picture::{Picture, Shot, encode_png, fit_size};
 use crate::reference::Reference;
-use crate::srgb;
+use crate::{TruthError, srgb};
 
 /// Texels of the longer side that a careful user gives a sign today.
 pub const TODAY_TEXELS: u32 = 4096;
@@ -29,7 +28,7 @@ impl RasterTexture {
     ///
     /// # Errors
     /// When the picture cannot be drawn.
-    pub fn new(smooth: &Reference, longer_texels: u32) -> Outcome<Self> {
+    pub fn new(smooth: &Reference, longer_texels: u32) -> Result<Self, TruthError> {
         let size = fit_size(smooth.canvas_size(), longer_texels);
         let pixmap = smooth.rasterize(size)?;
         let decode = srgb::decode_table();
@@ -78,7 +77,7 @@ impl RasterTexture {
     ///
     /// # Errors
     /// When it cannot be encoded.
-    pub fn png_bytes(&self) -> Outcome<u64> {
+    pub fn png_bytes(&self) -> Result<u64, TruthError> {
         let mip0 = &self.levels[0];
         let bytes = encode_png(
             mip0.size,
@@ -102,6 +101,11 @@ impl RasterTexture {
             color = std::array::from_fn(|c| color[c] + blend * (coarse[c] - color[c]));
         }
         color
+    }
+
+    /// Takes a picture, for comparisons.
+    pub fn shoot(&self, shot: Shot) -> Picture {
+        shot.shoot(|uv, footprint| self.sample(uv, footprint))
     }
 
     fn bilinear(&self, level: &Level, uv: [f32; 2]) -> [f32; 4] {
@@ -168,11 +172,6 @@ impl Level {
 )]
 fn index(value: f32) -> usize {
     value.max(0.0) as usize
-}
-
-/// A shot of the texture, for comparisons.
-pub fn shoot(texture: &RasterTexture, shot: crate::preview::Shot) -> Picture {
-    shot.shoot(|uv, footprint| texture.sample(uv, footprint))
 }
 
 #[cfg(test)]

@@ -8,17 +8,20 @@
 //! rounding of the canvas' size to whole pixels. Strokes of plain drawings are expanded at the scale
 //! of the picture (`plain.rs`).
 
+mod lattice;
+mod plain;
+mod strokes;
+
 use std::sync::Arc;
 
 use rayon::prelude::*;
 use resvg::tiny_skia::{Pixmap, Transform};
 use usvg::fontdb;
 
-use crate::failure::{Failure, Outcome};
-use crate::lattice::SampleLattice;
 use crate::picture::{Picture, View};
-use crate::plain::{Outlines, PlainPaths};
-use crate::srgb;
+use crate::{TruthError, srgb};
+use lattice::SampleLattice;
+use plain::{Outlines, PlainPaths};
 
 /// Samples along each side of a pixel in [`Reference::render`].
 pub const SUPERSAMPLES: u32 = 16;
@@ -81,7 +84,7 @@ impl Reference {
     ///
     /// # Errors
     /// When a tile cannot be allocated.
-    pub fn render(&self, view: View, size_px: [u32; 2]) -> Outcome<Picture> {
+    pub fn render(&self, view: View, size_px: [u32; 2]) -> Result<Picture, TruthError> {
         self.render_with(view, size_px, SUPERSAMPLES)
     }
 
@@ -89,7 +92,12 @@ impl Reference {
     ///
     /// # Errors
     /// When a tile cannot be allocated.
-    pub fn render_with(&self, view: View, size_px: [u32; 2], samples: u32) -> Outcome<Picture> {
+    pub fn render_with(
+        &self,
+        view: View,
+        size_px: [u32; 2],
+        samples: u32,
+    ) -> Result<Picture, TruthError> {
         let lattice = SampleLattice::new(samples, self.turns);
         let side_px = (TILE_FINE_PX / samples).max(1);
         let [columns, rows] = size_px.map(|side| side.div_ceil(side_px));
@@ -114,7 +122,7 @@ impl Reference {
                     average(&fine, tile_px, &lattice, &table),
                 ))
             })
-            .collect::<Outcome<Vec<_>>>()?;
+            .collect::<Result<Vec<_>, TruthError>>()?;
         let mut pixels = vec![[0.0; 4]; size_px[0] as usize * size_px[1] as usize];
         for (origin_px, tile_px, tile) in tiles {
             for (row, source) in (origin_px[1]..).zip(tile.chunks_exact(tile_px[0] as usize)) {
@@ -129,7 +137,7 @@ impl Reference {
     ///
     /// # Errors
     /// When the pixels cannot be allocated.
-    pub fn rasterize(&self, size_px: [u32; 2]) -> Outcome<Pixmap> {
+    pub fn rasterize(&self, size_px: [u32; 2]) -> Result<Pixmap, TruthError> {
         let upright = SampleLattice::new(1, false);
         self.draw(None, View::WHOLE, size_px, [0, 0], size_px, &upright)
     }
@@ -172,10 +180,9 @@ impl Reference {
         origin_px: [u32; 2],
         tile_px: [u32; 2],
         lattice: &SampleLattice,
-    ) -> Outcome<Pixmap> {
+    ) -> Result<Pixmap, TruthError> {
         let [width, height] = lattice.fine_size(tile_px);
-        let mut pixmap = Pixmap::new(width, height)
-            .ok_or_else(|| Failure::runtime("cannot allocate the reference picture"))?;
+        let mut pixmap = Pixmap::new(width, height).ok_or(TruthError::Memory)?;
         if let Some(outlines) = outlines {
             let corner = lattice.fine_corner(origin_px, size_px, tile_px);
             outlines.paint(corner, &mut pixmap.as_mut());

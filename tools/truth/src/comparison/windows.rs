@@ -1,8 +1,7 @@
 //! Where a comparison looks when it zooms in: at edges.
 
-use crate::failure::Outcome;
-use crate::picture::{Picture, View};
-use crate::preview::hash;
+use crate::TruthError;
+use crate::picture::{Picture, View, hash};
 use crate::reference::Reference;
 
 /// Windows a zoom above 1 is compared in where nothing else is asked for.
@@ -35,7 +34,7 @@ impl<'a> EdgeFinder<'a> {
     ///
     /// # Errors
     /// When the reference cannot be drawn.
-    pub fn windows(&self, zoom: f64, count: u32) -> Outcome<Vec<View>> {
+    pub fn windows(&self, zoom: f64, count: u32) -> Result<Vec<View>, TruthError> {
         if zoom <= 1.0 {
             return Ok(vec![View::WHOLE]);
         }
@@ -49,11 +48,11 @@ impl<'a> EdgeFinder<'a> {
     ///
     /// # Errors
     /// When the reference cannot be drawn.
-    pub fn window(&self, zoom: f64, seed: u64) -> Outcome<View> {
+    pub fn window(&self, zoom: f64, seed: u64) -> Result<View, TruthError> {
         Ok(View::window(self.edge_uv(zoom, seed)?, zoom))
     }
 
-    fn edge_uv(&self, zoom: f64, seed: u64) -> Outcome<[f64; 2]> {
+    fn edge_uv(&self, zoom: f64, seed: u64) -> Result<[f64; 2], TruthError> {
         let size_px = self.overview.size_px;
         let count = self.edges.len() as u64;
         let Some(&[x, y]) = usize::try_from(hash(seed) % count.max(1))

@@ -1,13 +1,16 @@
 //! A texture measured against its SVG at one zoom.
 
+mod page;
+mod windows;
+
 use serde_json::{Value, json};
 
-use crate::failure::Outcome;
-use crate::metrics::{Difference, difference};
-use crate::picture::{Picture, View, fit_size};
-use crate::preview::Shot;
+use crate::TruthError;
+use crate::picture::{Difference, Picture, Shot, View, difference, fit_size};
 use crate::reference::{Reference, SUPERSAMPLES};
-use crate::windows::EdgeFinder;
+
+pub use page::{Column, Page, PageFile, Sizes, human_bytes};
+pub use windows::{EdgeFinder, WINDOWS};
 
 /// What is measured.
 #[derive(Clone, Copy, Debug)]
@@ -90,7 +93,7 @@ impl<'a> Comparison<'a> {
     ///
     /// # Errors
     /// When the SVG cannot be drawn.
-    pub fn new(reference: &'a Reference, terms: Terms) -> Outcome<Self> {
+    pub fn new(reference: &'a Reference, terms: Terms) -> Result<Self, TruthError> {
         let size_px = fit_size(reference.canvas_size(), terms.longer_px);
         let overview = reference.render(View::WHOLE, size_px)?;
         let finder = EdgeFinder::new(reference, overview.clone());
@@ -112,7 +115,7 @@ impl<'a> Comparison<'a> {
     ///
     /// # Errors
     /// When the SVG cannot be drawn.
-    pub fn windows(&self, zoom: f64) -> Outcome<Vec<View>> {
+    pub fn windows(&self, zoom: f64) -> Result<Vec<View>, TruthError> {
         self.finder.windows(zoom, self.terms.windows)
     }
 
@@ -120,7 +123,7 @@ impl<'a> Comparison<'a> {
     ///
     /// # Errors
     /// When the SVG cannot be drawn.
-    pub fn first_window(&self, zoom: f64) -> Outcome<View> {
+    pub fn first_window(&self, zoom: f64) -> Result<View, TruthError> {
         if zoom <= 1.0 {
             Ok(View::WHOLE)
         } else {
@@ -132,7 +135,7 @@ impl<'a> Comparison<'a> {
     ///
     /// # Errors
     /// When the SVG cannot be drawn.
-    pub fn truth(&self, view: View) -> Outcome<Picture> {
+    pub fn truth(&self, view: View) -> Result<Picture, TruthError> {
         let picture = match view == View::WHOLE {
             true => self.overview.clone(),
             false => self.reference.render(view, self.size_px)?,
@@ -145,7 +148,7 @@ impl<'a> Comparison<'a> {
     ///
     /// # Errors
     /// When the SVG cannot be drawn.
-    pub fn noise_db(&self, view: View) -> Outcome<f64> {
+    pub fn noise_db(&self, view: View) -> Result<f64, TruthError> {
         let coarse = self
             .reference
             .render_with(view, self.size_px, SUPERSAMPLES / 2)?;
@@ -169,8 +172,8 @@ impl<'a> Comparison<'a> {
     pub fn measure(
         &self,
         zoom: f64,
-        shoot: impl Fn(Shot) -> Outcome<Picture>,
-    ) -> Outcome<ZoomReport> {
+        shoot: impl Fn(Shot) -> Result<Picture, TruthError>,
+    ) -> Result<ZoomReport, TruthError> {
         let mut windows = Vec::new();
         for view in self.windows(zoom)? {
             let truth = self.truth(view)?;

@@ -10,7 +10,7 @@
 //!
 //! Masks are compared by alpha, as opaque grey pictures.
 
-use crate::picture::Picture;
+use super::Picture;
 use crate::srgb;
 
 /// PSNR of equal pictures, dB. Real pictures that differ in one pixel by one step stay below.

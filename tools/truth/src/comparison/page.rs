@@ -2,15 +2,11 @@
 //! from elsewhere.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
 
-use crate::comparison::Comparison;
-use crate::console::human_bytes;
-use crate::failure::Outcome;
-use crate::metrics::{Difference, PSNR_CAP_DB, difference};
-use crate::output;
-use crate::picture::Picture;
-use crate::raster::RasterTexture;
+use super::Comparison;
+use crate::TruthError;
+use crate::picture::{Difference, PSNR_CAP_DB, Picture, difference};
+use crate::texture::RasterTexture;
 
 /// What one drawing costs in each form.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +23,11 @@ impl Sizes {
     ///
     /// # Errors
     /// When the raster cannot be encoded.
-    pub fn new(svg_bytes: u64, vtex_bytes: u64, raster: &RasterTexture) -> Outcome<Self> {
+    pub fn new(
+        svg_bytes: u64,
+        vtex_bytes: u64,
+        raster: &RasterTexture,
+    ) -> Result<Self, TruthError> {
         Ok(Self {
             svg_bytes,
             vtex_bytes,
@@ -63,27 +63,29 @@ const COLUMNS: [(&str, &str); 3] = [
     ("raster", "raster 4096 with mips"),
 ];
 
-/// A page being written: pictures go to the folder at once, the text when it is finished.
+/// One file of a page.
+#[derive(Debug)]
+pub struct PageFile {
+    /// Its path below the folder of the page, with `/` between folders.
+    pub name: String,
+    /// What it holds.
+    pub bytes: Vec<u8>,
+}
+
+/// A page being made, in memory.
 #[derive(Debug)]
 pub struct Page {
-    folder: PathBuf,
     body: String,
-    picture_count: usize,
+    pictures: Vec<PageFile>,
 }
 
 impl Page {
-    /// Begins a page in `folder`.
-    ///
-    /// # Errors
-    /// When the folder cannot be made.
-    pub fn new(folder: &Path, title: &str) -> Outcome<Self> {
-        output::create_folder(&folder.join("pictures"))?;
-        let body = format!("<h1>{}</h1>\n", escape(title));
-        Ok(Self {
-            folder: folder.to_owned(),
-            body,
-            picture_count: 0,
-        })
+    /// Begins a page.
+    pub fn new(title: &str) -> Self {
+        Self {
+            body: format!("<h1>{}</h1>\n", escape(title)),
+            pictures: Vec::new(),
+        }
     }
 
     /// A paragraph of text.
@@ -92,17 +94,13 @@ impl Page {
     }
 
     /// One large picture, a PNG.
-    ///
-    /// # Errors
-    /// When it cannot be written.
-    pub fn large_picture(&mut self, png: &[u8], caption: &str) -> Outcome<()> {
-        let name = self.save("scene", png)?;
+    pub fn large_picture(&mut self, png: Vec<u8>, caption: &str) {
+        let name = self.save("scene", png);
         let caption = escape(caption);
         self.push(&format!(
             "<figure class=\"large\"><img src=\"{name}\" alt=\"{caption}\">\
              <figcaption>{caption}</figcaption></figure>\n"
         ));
-        Ok(())
     }
 
     /// Begins a drawing.
@@ -129,8 +127,13 @@ impl Page {
     /// One zoom: the truth, then vtex and raster with their figures.
     ///
     /// # Errors
-    /// When a picture cannot be written.
-    pub fn row(&mut self, zoom: f64, truth: &Picture, columns: &[Column; 2]) -> Outcome<()> {
+    /// When a picture cannot be encoded.
+    pub fn row(
+        &mut self,
+        zoom: f64,
+        truth: &Picture,
+        columns: &[Column; 2],
+    ) -> Result<(), TruthError> {
         self.push(&format!("<h3>{zoom}&times;</h3>\n<div class=\"row\">\n"));
         self.cell(0, truth, "the truth")?;
         let best = columns[0]
@@ -145,9 +148,9 @@ impl Page {
         Ok(())
     }
 
-    fn cell(&mut self, column: usize, picture: &Picture, figures: &str) -> Outcome<()> {
+    fn cell(&mut self, column: usize, picture: &Picture, figures: &str) -> Result<(), TruthError> {
         let (stem, heading) = COLUMNS[column];
-        let name = self.save(stem, &picture.to_png()?)?;
+        let name = self.save(stem, picture.to_png()?);
         let [width, height] = picture.size_px;
         self.push(&format!(
             "<figure><img src=\"{name}\" width=\"{width}\" height=\"{height}\" alt=\"{heading}\">\
@@ -156,20 +159,24 @@ impl Page {
         Ok(())
     }
 
-    fn save(&mut self, stem: &str, png: &[u8]) -> Outcome<String> {
-        let name = format!("pictures/{:03}-{stem}.png", self.picture_count);
-        self.picture_count += 1;
-        output::write(&self.folder.join(&name), png)?;
-        Ok(name)
+    fn save(&mut self, stem: &str, bytes: Vec<u8>) -> String {
+        let name = format!("pictures/{:03}-{stem}.png", self.pictures.len());
+        self.pictures.push(PageFile {
+            name: name.clone(),
+            bytes,
+        });
+        name
     }
 
-    /// Writes `index.html`.
-    ///
-    /// # Errors
-    /// When it cannot be written.
-    pub fn finish(self) -> Outcome<()> {
-        let page = format!("{HEAD}{}</main>\n</body>\n</html>\n", self.body);
-        output::write(&self.folder.join("index.html"), page.as_bytes())
+    /// The files of the page: the pictures, then `index.html`.
+    pub fn finish(self) -> Vec<PageFile> {
+        let html = format!("{HEAD}{}</main>\n</body>\n</html>\n", self.body);
+        let mut files = self.pictures;
+        files.push(PageFile {
+            name: "index.html".to_owned(),
+            bytes: html.into_bytes(),
+        });
+        files
     }
 
     fn push(&mut self, html: &str) {
@@ -191,6 +198,22 @@ fn figures(found: &Difference, best_db: f64) -> String {
     };
     let _ = write!(text, ", {:.2}% wrong pixels", 100.0 * found.wrong_share);
     text
+}
+
+/// `1234567` as `1.2 MiB`.
+pub fn human_bytes(bytes: u64) -> String {
+    const UNITS: [&str; 4] = ["KiB", "MiB", "GiB", "TiB"];
+    if bytes < 1024 {
+        return format!("{bytes} B");
+    }
+    // Rounding to one digit is the purpose.
+    let mut value = bytes as f64 / 1024.0;
+    let mut unit = 0;
+    while value >= 1000.0 && unit + 1 < UNITS.len() {
+        value /= 1024.0;
+        unit += 1;
+    }
+    format!("{value:.1} {}", UNITS[unit])
 }
 
 fn escape(text: &str) -> String {
@@ -242,16 +265,16 @@ mod tests {
 
     #[test]
     fn a_page_links_only_to_its_own_pictures() {
-        let folder = tempfile::tempdir().unwrap();
-        let mut page = Page::new(folder.path(), "<title>").unwrap();
-        page.large_picture(b"png", "a \"scene\"").unwrap();
-        page.finish().unwrap();
-        let html = std::fs::read_to_string(folder.path().join("index.html")).unwrap();
+        let mut page = Page::new("<title>");
+        page.large_picture(b"png".to_vec(), "a \"scene\"");
+        let files = page.finish();
+        let names: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
+        assert_eq!(names, ["pictures/000-scene.png", "index.html"]);
+        let html = String::from_utf8(files[1].bytes.clone()).unwrap();
         assert!(
             html.contains("&lt;title&gt;") && !html.contains("http"),
             "{html}"
         );
         assert!(html.contains("src=\"pictures/000-scene.png\""), "{html}");
-        assert!(folder.path().join("pictures/000-scene.png").exists());
     }
 }

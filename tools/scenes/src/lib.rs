@@ -1,60 +1,15 @@
-//! Scenes ready to render: a texture on a plane, and a showroom of textured objects.
+//! Scenes that the command line, the benchmarks and the tests trace.
 
 use glam::{Affine3A, Quat, Vec3};
 use vtex_format::{AddressMode, VtexFile};
+use vtex_runtime::scene::canvas_aspect;
+use vtex_runtime::{Camera, Instance, LoadOptions, Material, Mesh, RectLight, Scene, Sky, Surface};
 
-use crate::{Camera, Instance, LoadOptions, Material, Mesh, RectLight, Scene, Sky, Surface};
-
-/// Shows `file` upright on a plane as high as 1 unit, seen straight on by [`plane_camera`] for a
-/// film of the canvas' own proportions. A diffuse plane under a uniform white sky reflects just
-/// its colour, so the picture is the drawing on white, exactly.
-pub fn plane(file: VtexFile, options: LoadOptions) -> Scene {
-    let aspect = aspect(&file);
-    Scene {
-        meshes: vec![Mesh::plane(aspect, 1.0)],
-        instances: vec![Instance {
-            mesh: 0,
-            material: 0,
-            world_from_object: Affine3A::IDENTITY,
-        }],
-        materials: vec![Material {
-            texture: Some(0),
-            ..Material::default()
-        }],
-        camera: plane_camera(&file, [0.0, 0.0, 1.0, 1.0], aspect),
-        textures: vec![(file, options)],
-        sky: Sky::uniform(1.0),
-        lights: Vec::new(),
-    }
-}
-
-/// A camera for [`plane`] that shows the part `view_uv` (left, top, right, bottom) of the canvas
-/// of `file`, as large as a film of width / height = `film_aspect` allows.
-pub fn plane_camera(file: &VtexFile, view_uv: [f32; 4], film_aspect: f32) -> Camera {
-    let aspect = aspect(file);
-    let [left, top, right, bottom] = view_uv;
-    let center = [
-        (0.5 * (left + right) - 0.5) * aspect,
-        0.5 - 0.5 * (top + bottom),
-    ];
-    let size = [(right - left) * aspect, bottom - top];
-    Camera::facing_rect(center, size, film_aspect)
-}
-
-/// Width over height of the canvas.
-fn aspect(file: &VtexFile) -> f32 {
-    let [width, height] = file.meta.canvas_size;
-    let aspect = width / height;
-    if aspect.is_finite() && aspect > 0.0 {
-        aspect
-    } else {
-        1.0
-    }
-}
-
-/// A sign board, a glazed ball, a mug and a panel on the floor before a wall, lit by a panel
-/// overhead and a pale sky, for a 3:2 film. Each object takes the next of `files` and starts over when they run
-/// out; without any, all are plain. The floor panel shows its texture at grazing angles.
+/// A sign board, a glazed ball, a mug and a panel on the floor, in front of a wall, under a ceiling
+/// light and a pale sky. The camera is framed for a 3:2 film.
+///
+/// Each object shows the next of `files`, from the first again when they run out. Without files all
+/// objects are plain. The floor panel shows its texture at grazing angles.
 pub fn showroom(files: Vec<VtexFile>) -> Scene {
     let mut room = Room::new(files);
     room.walls();
@@ -235,7 +190,7 @@ impl Room {
         }
         let file = self.files[self.taken % self.files.len()].clone();
         self.taken += 1;
-        let aspect = aspect(&file);
+        let aspect = canvas_aspect(&file);
         let mut options = LoadOptions::default();
         options.pack.address = address.or(options.pack.address);
         self.scene.textures.push((file, options));

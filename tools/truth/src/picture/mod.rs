@@ -1,7 +1,12 @@
-//! A picture in linear light, and PNG.
+//! Pictures in linear light, how they are taken, and how far two of them are apart.
 
-use crate::failure::{Failure, Outcome};
-use crate::srgb;
+mod metrics;
+mod shot;
+
+use crate::{TruthError, srgb};
+
+pub use metrics::{Difference, PSNR_CAP_DB, WRONG_ABOVE, difference, difference_picture};
+pub use shot::{Shot, hash};
 
 /// A rectangle of the canvas in uv: left, top, right, bottom.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,7 +91,7 @@ impl Picture {
     ///
     /// # Errors
     /// When the picture has no pixels.
-    pub fn to_png(&self) -> Outcome<Vec<u8>> {
+    pub fn to_png(&self) -> Result<Vec<u8>, TruthError> {
         encode_png(
             self.size_px,
             &self.to_straight_srgb(),
@@ -119,7 +124,7 @@ pub fn encode_png(
     size_px: [u32; 2],
     rgba: &[u8],
     compression: png::Compression,
-) -> Outcome<Vec<u8>> {
+) -> Result<Vec<u8>, TruthError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, size_px[0], size_px[1]);
     encoder.set_color(png::ColorType::Rgba);
@@ -128,8 +133,7 @@ pub fn encode_png(
     encoder.set_compression(compression);
     encoder
         .write_header()
-        .and_then(|mut writer| writer.write_image_data(rgba))
-        .map_err(|error| Failure::runtime(format!("cannot encode PNG: {error}")))?;
+        .and_then(|mut writer| writer.write_image_data(rgba))?;
     Ok(bytes)
 }
 

@@ -1,13 +1,13 @@
 //! Drawings of nothing but paths in solid colours, painted path by path with resvg's rasteriser.
 //!
-//! Everything is as resvg does it, but for two things: strokes are expanded by [`crate::strokes`],
+//! Everything is as resvg does it, but for two things: strokes are expanded by [`strokes`],
 //! and points are brought to a tile's pixels in f64, where tiny-skia's transforms lose a quarter of
 //! a fine pixel at 256x.
 
 use kurbo::{Affine, BezPath, Cap, Join, Point, Rect};
 use resvg::tiny_skia::{self, Color, FillRule, Paint, PathBuilder, PixmapMut, Transform};
 
-use crate::strokes::{self, Piece, StrokeStyle};
+use super::strokes::{self, Piece, StrokeStyle};
 
 /// Largest distance between a stroke and its pieces, in fine pixels.
 const TOLERANCE_PX: f64 = 0.05;
@@ -316,8 +316,8 @@ fn bez_path(path: &tiny_skia::Path) -> BezPath {
 mod tests {
     use std::sync::Arc;
 
+    use super::super::{Edges, Reference};
     use crate::picture::View;
-    use crate::reference::{Edges, Reference};
 
     /// Coverage of a window.
     fn covered(content: &str, view: View) -> f64 {

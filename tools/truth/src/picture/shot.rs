@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use vtex_shaders::layout::BatchQuery;
 
-use crate::picture::{Picture, View};
+use super::{Picture, View};
 
 /// What picture is taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
