@@ -8,33 +8,23 @@
 //! [`Gpu::headless`] opens a device for programs that have none.
 
 mod batch;
-#[cfg(feature = "tracer")]
-mod bvh;
-#[cfg(feature = "tracer")]
-mod camera;
 mod device;
 mod error;
 mod gpu;
 mod load;
-#[cfg(feature = "tracer")]
-mod mesh;
-#[cfg(feature = "tracer")]
-mod plane;
 #[cfg(feature = "tracer")]
 pub mod scene;
 #[cfg(feature = "tracer")]
 mod tracer;
 
 pub use batch::{BatchSampler, Trust};
-#[cfg(feature = "tracer")]
-pub use camera::Camera;
 pub use error::RuntimeError;
 pub use gpu::{ADAPTER_VARIABLE, Gpu};
 pub use load::{GpuVtex, LoadOptions};
 #[cfg(feature = "tracer")]
-pub use mesh::{MAX_TRIANGLES, Mesh};
-#[cfg(feature = "tracer")]
-pub use scene::{Instance, MAX_LIGHTS, Material, RectLight, Scene, Sky, Surface};
+pub use scene::{
+    Camera, Instance, MAX_LIGHTS, MAX_TRIANGLES, Material, Mesh, RectLight, Scene, Sky, Surface,
+};
 #[cfg(feature = "tracer")]
 pub use tracer::{
     Background, Film, LightSampling, RayHit, RayQuery, ToneMap, TraceOptions, TraceStats, Tracer,

@@ -4,16 +4,17 @@ use glam::{Vec3, Vec3A, Vec4};
 use obvhs::triangle::Triangle;
 use wgpu::{Buffer, BufferUsages, Device, Queue};
 
-use super::TraceOptions;
 use super::records::{
     AttributeRecord, FrameRecord, LightRecord, MaterialRecord, NONE, SURFACE_DIFFUSE,
     SURFACE_GLOSSY, TriangleRecord,
 };
 use super::textures::PackedTextures;
+use super::{TraceOptions, bvh};
+use crate::RuntimeError;
 use crate::device::{checked, filled_buffer};
-use crate::mesh::MAX_TRIANGLES;
-use crate::scene::{Instance, MAX_LIGHTS, Material, RectLight, Scene, Surface};
-use crate::{Camera, RuntimeError, bvh};
+use crate::scene::{
+    Camera, Instance, MAX_LIGHTS, MAX_TRIANGLES, Material, RectLight, Scene, Surface,
+};
 
 /// Deepest hierarchy the shader's stack holds; see `BVH_STACK_SIZE` there.
 const MAX_BVH_DEPTH: usize = 32;

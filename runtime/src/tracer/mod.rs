@@ -1,5 +1,6 @@
 //! The progressive path tracer.
 
+mod bvh;
 mod film;
 mod intersect;
 mod options;
