@@ -54,6 +54,7 @@ pub(crate) fn triangle(corners: [Vec3A; 3]) -> Triangle {
 }
 
 #[cfg(test)]
+#[cfg(feature = "blocking")]
 mod tests {
     use obvhs::ray::{Ray, RayHit};
 

@@ -1,22 +1,30 @@
 //! The progressive path tracer.
 
+mod bvh;
 mod film;
+mod intersect;
 mod options;
 mod passes;
 mod pipeline;
 pub(crate) mod records;
+mod textures;
+mod timer;
 mod upload;
 
-use wgpu::{Buffer, Device, Queue};
+use std::sync::OnceLock;
+
+use wgpu::{Buffer, BufferUsages, Device, Queue};
 
 pub use film::{Film, ToneMap};
+pub use intersect::{RayHit, RayQuery};
 pub use options::{Background, LightSampling, TraceOptions};
 
-use crate::gpu::{checked, empty_buffer, read_buffer, wait};
+use crate::device::{checked, empty_buffer, read_back, submitted_work};
 use crate::{RuntimeError, Scene};
-use passes::{MAX_IN_FLIGHT, Passes, Timer};
-use pipeline::{Bindings, Pipelines};
-use records::{HitRecord, NONE, PassRecord, RayRecord};
+use passes::{MAX_FILM_SIDE, MAX_IN_FLIGHT, Passes};
+use pipeline::{Bindings, Pipelines, QueryPipeline};
+use records::PassRecord;
+use timer::Timer;
 use upload::SceneBuffers;
 
 /// Renders a [`Scene`] by averaging random paths, a few samples at a time.
@@ -32,10 +40,14 @@ pub struct Tracer {
     scene: SceneBuffers,
     pipelines: Pipelines,
     bindings: Bindings,
+    queries: OnceLock<QueryPipeline>,
     film_sum: Buffer,
     film_rays: Buffer,
     pass: Buffer,
     timer: Option<Timer>,
+    /// Every pixel has `samples` samples: false while samples are added, and for ever after when
+    /// that fails or its future is dropped half way.
+    film_is_even: bool,
 }
 
 /// What a picture has cost so far.
@@ -49,33 +61,31 @@ pub struct TraceStats {
     pub triangles: u32,
 }
 
-/// A ray for [`Tracer::intersect`], world space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RayQuery {
-    /// Where it starts.
-    pub origin: [f32; 3],
-    /// Its direction; `t` counts in its length.
-    pub direction: [f32; 3],
-    /// Hits at or past this `t` do not count.
-    pub t_max: f32,
-}
-
-/// The nearest hit of a [`RayQuery`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RayHit {
-    /// Distance along the ray.
-    pub t: f32,
-    /// Triangle, counted over the instances in order and then over the lights, two each.
-    pub triangle: u32,
-}
-
 impl Tracer {
     /// Builds the BVH, uploads the scene and compiles the shader. The film is `size` pixels.
     ///
     /// # Errors
     /// [`RuntimeError::Parameter`] for a scene that contradicts itself, [`RuntimeError::Limit`]
     /// for one that does not fit the device.
+    #[cfg(all(feature = "blocking", not(target_arch = "wasm32")))]
     pub fn new(
+        device: &Device,
+        queue: &Queue,
+        scene: &Scene,
+        size: [u32; 2],
+        options: &TraceOptions,
+    ) -> Result<Self, RuntimeError> {
+        let made = Self::new_async(device, queue, scene, size, options);
+        crate::device::block_on(device, made)
+    }
+
+    /// As `Tracer::new`, for callers that must not block. The BVH is built before the first
+    /// await: about a second for a million triangles.
+    ///
+    /// # Errors
+    /// [`RuntimeError::Parameter`] for a scene that contradicts itself, [`RuntimeError::Limit`]
+    /// for one that does not fit the device.
+    pub async fn new_async(
         device: &Device,
         queue: &Queue,
         scene: &Scene,
@@ -84,42 +94,41 @@ impl Tracer {
     ) -> Result<Self, RuntimeError> {
         options.check()?;
         scene.check()?;
-        if size.contains(&0) || size.iter().any(|&side| side > passes::MAX_FILM_SIDE) {
+        if size.contains(&0) || size.iter().any(|&side| side > MAX_FILM_SIDE) {
             return Err(RuntimeError::Parameter(format!(
-                "film of {} by {} pixels; each side is 1 to {}",
-                size[0],
-                size[1],
-                passes::MAX_FILM_SIDE
+                "film of {} by {} pixels; each side is 1 to {MAX_FILM_SIDE}",
+                size[0], size[1],
             )));
         }
-        let buffers = SceneBuffers::upload(device, queue, scene, size, options)?;
-        let pipelines = Pipelines::new(device, buffers.texture_features())?;
-        let pixels = u64::from(size[0]) * u64::from(size[1]);
-        let usage = wgpu::BufferUsages::STORAGE
-            | wgpu::BufferUsages::COPY_SRC
-            | wgpu::BufferUsages::COPY_DST;
-        let film_sum = empty_buffer(device, "vtex film", pixels * 16, usage)?;
-        let film_rays = empty_buffer(device, "vtex film rays", pixels * 4, usage)?;
-        let pass = empty_buffer(
-            device,
-            "vtex pass",
-            size_of::<PassRecord>() as u64,
-            wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-        )?;
-        let bindings = Bindings::new(device, &pipelines, &buffers, &pass, &film_sum, &film_rays)?;
-        Ok(Self {
-            timer: Timer::new(device, queue)?,
-            device: device.clone(),
-            queue: queue.clone(),
-            size,
-            samples: 0,
-            scene: buffers,
-            pipelines,
-            bindings,
-            film_sum,
-            film_rays,
-            pass,
+        let buffers = SceneBuffers::upload(device, queue, scene, size, options).await?;
+        let pipelines = Pipelines::new(device, buffers.texture_features()).await?;
+        checked(device, "film", || {
+            let pixels = u64::from(size[0]) * u64::from(size[1]);
+            let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
+            let film_sum = empty_buffer(device, "vtex film", pixels * 16, usage)?;
+            let film_rays = empty_buffer(device, "vtex film rays", pixels * 4, usage)?;
+            let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+            let pass_bytes = size_of::<PassRecord>() as u64;
+            let pass = empty_buffer(device, "vtex pass", pass_bytes, usage)?;
+            let bindings =
+                Bindings::new(device, &pipelines, &buffers, &pass, &film_sum, &film_rays);
+            Ok(Self {
+                timer: Timer::new(device, queue)?,
+                device: device.clone(),
+                queue: queue.clone(),
+                size,
+                samples: 0,
+                scene: buffers,
+                pipelines,
+                bindings,
+                queries: OnceLock::new(),
+                film_sum,
+                film_rays,
+                pass,
+                film_is_even: true,
+            })
         })
+        .await
     }
 
     /// Adds `samples` paths to every pixel and waits for them. Long runs are cut into
@@ -127,31 +136,49 @@ impl Tracer {
     ///
     /// # Errors
     /// [`RuntimeError::Device`] when the device is lost.
+    #[cfg(all(feature = "blocking", not(target_arch = "wasm32")))]
     pub fn accumulate(&mut self, samples: u32) -> Result<(), RuntimeError> {
+        let device = self.device.clone();
+        crate::device::block_on(&device, self.accumulate_async(samples))
+    }
+
+    /// As `Tracer::accumulate`, for callers that must not block. A future dropped before its end
+    /// leaves some pixels with more samples than others; the next call then starts the picture
+    /// again.
+    ///
+    /// # Errors
+    /// [`RuntimeError::Device`] when the device is lost.
+    pub async fn accumulate_async(&mut self, samples: u32) -> Result<(), RuntimeError> {
+        if !self.film_is_even {
+            self.reset();
+        }
+        self.film_is_even = false;
         let passes = Passes::new(self.size, self.samples, samples);
         for (count, record) in (1..).zip(passes) {
-            self.dispatch(record)?;
+            self.dispatch(record).await?;
             if count % MAX_IN_FLIGHT == 0 {
-                self.settle()?;
+                self.settle().await?;
             }
         }
+        self.settle().await?;
         self.samples = self.samples.saturating_add(samples);
-        self.settle()
+        self.film_is_even = true;
+        Ok(())
     }
 
     /// Waits for what was submitted and adds up its times.
-    fn settle(&mut self) -> Result<(), RuntimeError> {
-        wait(&self.device)?;
+    async fn settle(&mut self) -> Result<(), RuntimeError> {
         match &mut self.timer {
-            Some(timer) => timer.finish(&self.device, &self.queue),
-            None => Ok(()),
+            Some(timer) => timer.finish(&self.device, &self.queue).await,
+            None => submitted_work(&self.device, &self.queue).await,
         }
     }
 
-    fn dispatch(&mut self, record: PassRecord) -> Result<(), RuntimeError> {
-        self.queue
-            .write_buffer(&self.pass, 0, bytemuck::bytes_of(&record));
+    async fn dispatch(&mut self, record: PassRecord) -> Result<(), RuntimeError> {
         checked(&self.device, "render", || {
+            // The queue keeps the order of writes and submissions, so one buffer serves all passes.
+            let bytes = bytemuck::bytes_of(&record);
+            self.queue.write_buffer(&self.pass, 0, bytes);
             let mut encoder = self
                 .device
                 .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -170,7 +197,9 @@ impl Tracer {
                 timer.resolve(&mut encoder);
             }
             self.queue.submit([encoder.finish()]);
+            Ok(())
         })
+        .await
     }
 
     /// Samples a pixel so far.
@@ -192,6 +221,10 @@ impl Tracer {
         encoder.clear_buffer(&self.film_rays, 0, None);
         self.queue.submit([encoder.finish()]);
         self.samples = 0;
+        if let Some(timer) = &mut self.timer {
+            timer.discard();
+        }
+        self.film_is_even = true;
     }
 
     /// Moves the camera and starts the picture again.
@@ -208,13 +241,18 @@ impl Tracer {
     ///
     /// # Errors
     /// [`RuntimeError::Device`] when the device is lost.
+    #[cfg(all(feature = "blocking", not(target_arch = "wasm32")))]
     pub fn read(&self) -> Result<Film, RuntimeError> {
-        let bytes = read_buffer(
-            &self.device,
-            &self.queue,
-            &self.film_sum,
-            self.film_sum.size(),
-        )?;
+        crate::device::block_on(&self.device, self.read_async())
+    }
+
+    /// As `Tracer::read`, for callers that must not block.
+    ///
+    /// # Errors
+    /// [`RuntimeError::Device`] when the device is lost.
+    pub async fn read_async(&self) -> Result<Film, RuntimeError> {
+        let size = self.film_sum.size();
+        let bytes = read_back(&self.device, &self.queue, &self.film_sum, size).await?;
         let scale = 1.0 / self.samples.max(1) as f32;
         let sums: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
         Ok(Film {
@@ -228,48 +266,23 @@ impl Tracer {
     ///
     /// # Errors
     /// [`RuntimeError::Device`] when the device is lost.
+    #[cfg(all(feature = "blocking", not(target_arch = "wasm32")))]
     pub fn stats(&self) -> Result<TraceStats, RuntimeError> {
-        let bytes = read_buffer(
-            &self.device,
-            &self.queue,
-            &self.film_rays,
-            self.film_rays.size(),
-        )?;
+        crate::device::block_on(&self.device, self.stats_async())
+    }
+
+    /// As `Tracer::stats`, for callers that must not block.
+    ///
+    /// # Errors
+    /// [`RuntimeError::Device`] when the device is lost.
+    pub async fn stats_async(&self) -> Result<TraceStats, RuntimeError> {
+        let size = self.film_rays.size();
+        let bytes = read_back(&self.device, &self.queue, &self.film_rays, size).await?;
         let counts: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);
         Ok(TraceStats {
             rays: counts.into_iter().map(u64::from).sum(),
             device_ns: self.timer.as_ref().map(Timer::total_ns),
             triangles: self.scene.triangle_count(),
-        })
-    }
-
-    /// The nearest triangle along each ray, `None` for a miss: picking, and the tests.
-    ///
-    /// # Errors
-    /// [`RuntimeError::Limit`] for more rays than one binding holds.
-    pub fn intersect(&self, rays: &[RayQuery]) -> Result<Vec<Option<RayHit>>, RuntimeError> {
-        if rays.is_empty() {
-            return Ok(Vec::new());
-        }
-        let records: Vec<RayRecord> = rays
-            .iter()
-            .map(|ray| {
-                let [x, y, z] = ray.origin;
-                let [dx, dy, dz] = ray.direction;
-                RayRecord {
-                    origin_t_max: [x, y, z, ray.t_max],
-                    direction: [dx, dy, dz, 0.0],
-                }
-            })
-            .collect();
-        let hits = passes::intersect(self, &records)?;
-        Ok(hits.into_iter().map(|hit| self.hit(hit)).collect())
-    }
-
-    fn hit(&self, record: HitRecord) -> Option<RayHit> {
-        (record.triangle != NONE).then(|| RayHit {
-            t: record.t,
-            triangle: self.scene.source_triangle(record.triangle),
         })
     }
 }

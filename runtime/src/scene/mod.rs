@@ -1,11 +1,20 @@
 //! What is in the picture.
+//!
+//! Points, vectors and matrices are plain arrays, so that a program may use any version of any
+//! linear algebra crate.
+
+mod camera;
+mod mesh;
+mod plane;
 
 use glam::{Affine3A, Vec3};
 use vtex_format::VtexFile;
 
-use crate::{Camera, LoadOptions, Mesh, RuntimeError};
+pub use camera::Camera;
+pub use mesh::{MAX_TRIANGLES, Mesh};
+pub use plane::{canvas_aspect, plane, plane_camera};
 
-pub use crate::plane::{canvas_aspect, plane, plane_camera};
+use crate::{LoadOptions, RuntimeError};
 
 /// Most area lights of a scene: they lie in one uniform block.
 pub const MAX_LIGHTS: usize = 16;
