@@ -9,10 +9,9 @@ mod prov;
 mod shapes;
 mod spec;
 
-use crate::VtexFile;
-use crate::issue::Issues;
+use crate::container::issue::Issues;
+use crate::file::texture::VtexFile;
 
-pub(crate) use cells::list_lengths;
 pub(crate) use images::image_records;
 pub(crate) use meta::meta;
 
