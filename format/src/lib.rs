@@ -62,6 +62,17 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#![cfg_attr(
+    not(any(test, all(feature = "encode", feature = "decode"))),
+    expect(
+        dead_code,
+        reason = "reading and writing share their modules; the half that is left out has no caller"
+    )
+)]
+
+#[cfg(all(feature = "decode", not(any(feature = "zstd", feature = "ruzstd"))))]
+compile_error!("reading needs a decoder: enable the feature `zstd` or `ruzstd`");
+
 mod cells;
 mod check;
 mod container;
@@ -108,5 +119,7 @@ pub use records::shader::ShaderBlob;
 pub use records::shape::{
     COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, FILL_EVEN_ODD, FILL_NON_ZERO, ShapeRecord,
 };
+#[cfg(feature = "decode")]
 pub use serial::read::validate;
+#[cfg(feature = "encode")]
 pub use serial::write::Executor;

@@ -3,9 +3,10 @@
 
 use bytemuck::Pod;
 
-use super::offsets;
-use super::{codec, frame, planes};
-use crate::check;
+use super::levels::level_order;
+use super::unpack::{Refusal, allocate, unpack};
+use super::{codec, offsets, planes};
+use crate::check::{self, images::image_records};
 use crate::container::directory::{entry_offset, read_directory, slice};
 use crate::container::error::ReadError;
 use crate::container::issue::{self, Issue, Issues};
@@ -14,7 +15,7 @@ use crate::container::limits::Limits;
 use crate::container::section::SectionInfo;
 use crate::container::tag::Tag;
 use crate::container::words::words_from_little_endian;
-use crate::curves::source::{self, CurveSources, SourceError};
+use crate::curves::source::{CurveSources, SourceError, stream};
 use crate::file::spec::SpecKey;
 use crate::file::texture::VtexFile;
 use crate::records::image::{Image, ImageRecord};
@@ -110,12 +111,12 @@ impl Loader<'_> {
         let section = &self.sections[index];
         let start = section.offset_bytes;
         let stored = slice(self.bytes, start, start + section.stored_bytes);
-        let result = frame::decompress(section, stored, raw);
+        let result = unpack(section, stored, raw);
         self.accept(index, result)
     }
 
-    fn accept<T>(&mut self, index: usize, result: Result<T, frame::Refusal>) -> Option<T> {
-        let note = |(kind, message): frame::Refusal| {
+    fn accept<T>(&mut self, index: usize, result: Result<T, Refusal>) -> Option<T> {
+        let note = |(kind, message): Refusal| {
             let message = format_args!("{}: {message}", self.sections[index].tag);
             self.issues
                 .add(kind, Tag::SECT, entry_offset(index), message);
@@ -125,7 +126,7 @@ impl Loader<'_> {
 
     /// The elements of a section as they are stored.
     fn load<T: Pod>(&mut self, index: usize) -> Option<Vec<T>> {
-        let memory = frame::allocate(self.sections[index].raw_bytes);
+        let memory = allocate(self.sections[index].raw_bytes);
         let mut elements: Vec<T> = self.accept(index, memory)?;
         self.unpack(index, bytemuck::cast_slice_mut(&mut elements))?;
         Some(elements)
@@ -266,7 +267,7 @@ impl Loader<'_> {
         // The lengths are known to be what the layers imply, so they divide.
         let texel_bytes = |section: &SectionInfo| section.raw_bytes / TILE_PLANES as u64 * 4;
         let total = parts.iter().map(|(_, section)| texel_bytes(section)).sum();
-        let memory = frame::allocate(total);
+        let memory = allocate(total);
         let mut all: Vec<u8> = self.accept(first, memory)?;
         let mut rest = all.as_mut_slice();
         for (index, section) in parts {
@@ -282,7 +283,7 @@ impl Loader<'_> {
     /// Images with their levels, which are stored smallest first: coarse levels of all images
     /// before finer ones, by image within a level.
     fn images(&mut self, records: &[ImageRecord]) -> Option<Vec<Image>> {
-        if !check::image_records(records, self.issues) {
+        if !image_records(records, self.issues) {
             return None;
         }
         let parts = self.all(Tag::MIPS);
@@ -318,11 +319,7 @@ impl Loader<'_> {
 }
 
 /// The records that the bytes of `OUTL` make, in at most `budget` bytes of memory.
-fn cut_records(
-    raw: &[u8],
-    meta: &Meta,
-    budget: u64,
-) -> Result<(Vec<u32>, CurveSources), frame::Refusal> {
+fn cut_records(raw: &[u8], meta: &Meta, budget: u64) -> Result<(Vec<u32>, CurveSources), Refusal> {
     let refuse = |error: SourceError| {
         let kind = match error {
             SourceError::Work => issue::OUTLINE_BUDGET,
@@ -332,13 +329,13 @@ fn cut_records(
     };
     let no_lattice = || (issue::CURVE_LATTICE_USE, "no lattice".to_owned());
     let lattice = meta.curve_lattice.ok_or_else(no_lattice)?;
-    let head = source::decode_head(raw).map_err(refuse)?;
+    let head = stream::decode_head(raw).map_err(refuse)?;
     let needed = head.memory_bytes();
     if needed > budget {
         let message = format!("{needed} bytes, {budget} are left of total_raw_bytes");
         return Err((issue::OUTLINE_BUDGET, message));
     }
-    let sources = source::decode(raw).map_err(refuse)?;
+    let sources = stream::decode(raw).map_err(refuse)?;
     let words = sources
         .records_within(&meta.grid, lattice, u64::from(head.words))
         .map_err(refuse)?;
@@ -347,15 +344,4 @@ fn cut_records(
         return Err((issue::OUTLINE_RECORDS, message));
     }
     Ok((words, sources))
-}
-
-/// `(level, image)` in file order: the highest level first, images ascending within it.
-pub(crate) fn level_order(
-    level_counts: impl Iterator<Item = u32> + Clone,
-) -> impl Iterator<Item = (u32, usize)> {
-    let highest = level_counts.clone().max().unwrap_or(0);
-    (0..highest).rev().flat_map(move |level| {
-        let images = level_counts.clone().enumerate();
-        images.filter_map(move |(image, count)| (level < count).then_some((level, image)))
-    })
 }

@@ -3,8 +3,9 @@
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
-use super::read::level_order;
-use super::{codec, frame, offsets, planes};
+use super::levels::level_order;
+use super::pack::pack;
+use super::{codec, offsets, planes};
 use crate::check;
 use crate::container::error::WriteError;
 use crate::container::header::{Header, put};
@@ -13,7 +14,7 @@ use crate::container::layout::{self, MAX_SECTIONS, entry, header, tile_texels};
 use crate::container::section::{Codec, SectionInfo};
 use crate::container::tag::Tag;
 use crate::container::words::words_to_little_endian;
-use crate::curves::source;
+use crate::curves::source::stream;
 use crate::file::texture::VtexFile;
 use crate::records::image::ImageRecord;
 use crate::records::layer::LayerRecord;
@@ -71,21 +72,13 @@ impl VtexFile {
         let parts = self.parts()?;
         let slots: Vec<OnceLock<_>> = parts.iter().map(|_| OnceLock::new()).collect();
         run(parts.len(), &|index| {
-            slots[index].get_or_init(|| frame::compress(&parts[index].raw));
+            slots[index].get_or_init(|| pack(&parts[index].raw));
         });
         let stored = slots.into_iter().map(|slot| {
             let packed = slot.into_inner().expect("the caller runs every job");
             packed.map_err(WriteError::Compress)
         });
         Ok(assemble(&parts, &stored.collect::<Result<Vec<_>, _>>()?))
-    }
-
-    /// Everything wrong with the value, up to 256 issues; what [`VtexFile::parse`] returns has
-    /// none.
-    pub fn check(&self) -> Vec<Issue> {
-        let mut issues = Issues::default();
-        check::file(self, &mut issues);
-        issues.into_vec()
     }
 
     /// All sections in file order, those without bytes left out.
@@ -136,7 +129,7 @@ impl VtexFile {
     /// The outlines where there are some, else the records.
     fn curve_part(&self) -> Part<'_> {
         match &self.sources {
-            Some(sources) => Part::whole(Tag::OUTL, source::encode(sources, &self.curves)),
+            Some(sources) => Part::whole(Tag::OUTL, stream::encode(sources, &self.curves)),
             None => Part::whole(Tag::CURV, words_to_little_endian(&self.curves)),
         }
     }

@@ -4,13 +4,11 @@
 
 mod bits;
 mod cutter;
-mod stream;
+pub(crate) mod stream;
 
 use crate::records::curve::CurveLattice;
 use crate::records::meta::Grid;
 use cutter::Cutter;
-
-pub(crate) use stream::{decode, decode_head, encode};
 
 /// Most places at which cutting may look, weighted by what a look costs: a few seconds of one
 /// core. Real drawings stay a thousand times below; past it a file is refused.
