@@ -31,6 +31,4 @@ pub use tracer::{
 };
 pub use vtex_shaders::layout::{BatchQuery, FilterMode};
 
-#[cfg(feature = "tracer")]
-pub use glam;
 pub use wgpu;

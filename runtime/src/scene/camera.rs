@@ -8,11 +8,11 @@ use crate::RuntimeError;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// The pinhole.
-    pub position: Vec3,
+    pub position: [f32; 3],
     /// A point in the middle of the picture.
-    pub target: Vec3,
+    pub target: [f32; 3],
     /// What is up in the picture; must not point along the view.
-    pub up: Vec3,
+    pub up: [f32; 3],
     /// Full vertical angle of view in radians, in (0, pi).
     pub fov_y_rad: f32,
 }
@@ -25,22 +25,23 @@ impl Camera {
         // A narrow angle keeps rays nearly parallel, so that footprints are even over the plane.
         let fov_y_rad: f32 = 0.2;
         let distance = 0.5 * height / (0.5 * fov_y_rad).tan();
-        let target = Vec3::new(center[0], center[1], 0.0);
+        let [x, y] = center;
         Self {
-            position: target + Vec3::Z * distance,
-            target,
-            up: Vec3::Y,
+            position: [x, y, distance],
+            target: [x, y, 0.0],
+            up: [0.0, 1.0, 0.0],
             fov_y_rad,
         }
     }
 
     /// The camera's axes: right, up, forward, unit length.
     pub(crate) fn axes(&self) -> Result<[Vec3; 3], RuntimeError> {
-        let forward = (self.target - self.position).try_normalize();
-        let right = forward.and_then(|f| f.cross(self.up).try_normalize());
+        let [position, target, up] = [self.position, self.target, self.up].map(Vec3::from);
+        let forward = (target - position).try_normalize();
+        let right = forward.and_then(|f| f.cross(up).try_normalize());
         match (forward, right) {
             (Some(forward), Some(right))
-                if self.position.is_finite()
+                if position.is_finite()
                     && self.fov_y_rad > 0.0
                     && self.fov_y_rad < std::f32::consts::PI =>
             {

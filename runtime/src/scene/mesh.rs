@@ -17,11 +17,11 @@ pub const MAX_TRIANGLES: usize = 2_000_000;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Vertex positions.
-    pub positions: Vec<Vec3>,
+    pub positions: Vec<[f32; 3]>,
     /// Shading normals, one a vertex, unit length.
-    pub normals: Vec<Vec3>,
+    pub normals: Vec<[f32; 3]>,
     /// Texture coordinates, one a vertex.
-    pub uvs: Vec<Vec2>,
+    pub uvs: Vec<[f32; 2]>,
     /// Three vertex indices a triangle.
     pub triangles: Vec<[u32; 3]>,
 }
@@ -39,9 +39,10 @@ impl Mesh {
         mesh
     }
 
-    /// A box around the origin; each face shows the whole texture, upright on the four sides.
-    pub fn cuboid(size: Vec3) -> Self {
-        let half = 0.5 * size;
+    /// A box around the origin of this size along x, y and z; each face shows the whole texture,
+    /// upright on the four sides.
+    pub fn cuboid(size: [f32; 3]) -> Self {
+        let half = 0.5 * Vec3::from(size);
         let mut mesh = Self::default();
         // Each face: its right and up as seen from outside; right x up points outwards.
         for (right, up) in [
@@ -141,9 +142,9 @@ impl Mesh {
     }
 
     fn push(&mut self, position: Vec3, normal: Vec3, uv: Vec2) {
-        self.positions.push(position);
-        self.normals.push(normal);
-        self.uvs.push(uv);
+        self.positions.push(position.to_array());
+        self.normals.push(normal.to_array());
+        self.uvs.push(uv.to_array());
     }
 
     fn vertex_count(&self) -> u32 {
@@ -155,9 +156,10 @@ impl Mesh {
         let count = self.positions.len();
         let agree = self.normals.len() == count && self.uvs.len() == count;
         let known = |index: &u32| (*index as usize) < count;
-        let finite = self.positions.iter().all(|p| p.is_finite())
-            && self.normals.iter().all(|n| n.is_finite())
-            && self.uvs.iter().all(|uv| uv.is_finite());
+        let vectors = self.positions.iter().chain(&self.normals).flatten();
+        let finite = vectors
+            .chain(self.uvs.iter().flatten())
+            .all(|number| number.is_finite());
         if agree && finite && self.triangles.iter().flatten().all(known) {
             Ok(())
         } else {

@@ -7,7 +7,7 @@ mod camera;
 mod mesh;
 mod plane;
 
-use glam::{Affine3A, Vec3};
+use glam::Vec3;
 use vtex_format::VtexFile;
 
 pub use camera::Camera;
@@ -46,8 +46,10 @@ pub struct Instance {
     pub mesh: usize,
     /// Index into [`Scene::materials`].
     pub material: usize,
-    /// Object space to world space.
-    pub world_from_object: Affine3A,
+    /// Object space to world space, column by column: where the unit vectors along x, y and z go,
+    /// then where the origin goes. As `glam::Affine3A::to_cols_array_2d` gives it; a column-major
+    /// 4 x 4 matrix such as glTF's without its last row.
+    pub world_from_object: [[f32; 3]; 4],
 }
 
 /// How a surface looks. Both sides look alike.
@@ -96,13 +98,23 @@ pub struct Sky {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RectLight {
     /// One corner, world space.
-    pub corner: Vec3,
+    pub corner: [f32; 3],
     /// From the corner along one side.
-    pub edge_u: Vec3,
+    pub edge_u: [f32; 3],
     /// From the corner along the other side.
-    pub edge_v: Vec3,
+    pub edge_v: [f32; 3],
     /// Linear radiance.
     pub radiance: [f32; 3],
+}
+
+impl Instance {
+    /// A [`Instance::world_from_object`] that leaves a mesh where it is.
+    pub const IDENTITY: [[f32; 3]; 4] = [
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [0.0, 0.0, 0.0],
+    ];
 }
 
 impl Default for Material {
@@ -135,7 +147,7 @@ impl Scene {
         let instances_ok = self.instances.iter().all(|instance| {
             instance.mesh < self.meshes.len()
                 && instance.material < self.materials.len()
-                && instance.world_from_object.is_finite()
+                && finite(instance.world_from_object.as_flattened())
         });
         require(
             instances_ok,
@@ -169,8 +181,8 @@ impl Scene {
 
 impl RectLight {
     fn is_valid(&self) -> bool {
-        let area = self.edge_u.cross(self.edge_v).length();
-        self.corner.is_finite()
+        let area = Vec3::from(self.edge_u).cross(self.edge_v.into()).length();
+        finite(&self.corner)
             && area.is_finite()
             && area > 0.0
             && self.radiance.iter().all(|&c| radiance(c))
@@ -188,6 +200,10 @@ impl Surface {
             } => (metallic, roughness),
         }
     }
+}
+
+fn finite(numbers: &[f32]) -> bool {
+    numbers.iter().all(|number| number.is_finite())
 }
 
 fn unit(value: f32) -> bool {

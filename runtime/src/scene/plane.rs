@@ -1,6 +1,5 @@
 //! A texture on a plane, seen straight on.
 
-use glam::Affine3A;
 use vtex_format::VtexFile;
 
 use crate::{Camera, Instance, LoadOptions, Material, Mesh, Scene, Sky};
@@ -15,7 +14,7 @@ pub fn plane(file: VtexFile, options: LoadOptions) -> Scene {
         instances: vec![Instance {
             mesh: 0,
             material: 0,
-            world_from_object: Affine3A::IDENTITY,
+            world_from_object: Instance::IDENTITY,
         }],
         materials: vec![Material {
             texture: Some(0),

@@ -75,12 +75,12 @@ mod tests {
             (Mesh::plane(20.0, 20.0), lying),
             (Mesh::sphere(0.5, 128, 1.0), at(0.0, 0.5, 0.0)),
             (Mesh::cylinder(0.4, 0.8, 96, 1.0), at(1.2, 0.4, 0.1)),
-            (Mesh::cuboid(Vec3::ONE), at(-1.2, 0.5, -0.2)),
+            (Mesh::cuboid([1.0; 3]), at(-1.2, 0.5, -0.2)),
         ];
-        let place = |(mesh, &(_, world_from_object))| Instance {
+        let place = |(mesh, (_, placed)): (usize, &(Mesh, Affine3A))| Instance {
             mesh,
             material: 0,
-            world_from_object,
+            world_from_object: placed.to_cols_array_2d(),
         };
         Scene {
             instances: placed.iter().enumerate().map(place).collect(),
@@ -89,15 +89,15 @@ mod tests {
             textures: Vec::new(),
             sky: Sky::uniform(1.0),
             lights: vec![RectLight {
-                corner: Vec3::new(-1.0, 3.0, -1.0),
-                edge_u: Vec3::new(2.0, 0.0, 0.0),
-                edge_v: Vec3::new(0.0, 0.0, 2.0),
+                corner: [-1.0, 3.0, -1.0],
+                edge_u: [2.0, 0.0, 0.0],
+                edge_v: [0.0, 0.0, 2.0],
                 radiance: [1.0; 3],
             }],
             camera: Camera {
-                position: Vec3::new(0.25, 1.45, 4.9),
-                target: Vec3::new(0.0, 0.42, 0.0),
-                up: Vec3::Y,
+                position: [0.25, 1.45, 4.9],
+                target: [0.0, 0.42, 0.0],
+                up: [0.0, 1.0, 0.0],
                 fov_y_rad: 0.55,
             },
         }
@@ -110,13 +110,15 @@ mod tests {
             let mesh = &scene.meshes[instance.mesh];
             let place = |i: u32| {
                 let position = mesh.positions[i as usize].into();
-                instance.world_from_object.transform_point3a(position)
+                Affine3A::from_cols_array_2d(&instance.world_from_object)
+                    .transform_point3a(position)
             };
             triangles.extend(mesh.triangles.iter().map(|t| triangle(t.map(place))));
         }
         for light in &scene.lights {
-            let at =
-                |u: f32, v: f32| Vec3A::from(light.corner + light.edge_u * u + light.edge_v * v);
+            let [corner, edge_u, edge_v] =
+                [light.corner, light.edge_u, light.edge_v].map(Vec3::from);
+            let at = |u: f32, v: f32| Vec3A::from(corner + edge_u * u + edge_v * v);
             triangles.push(triangle([at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0)]));
             triangles.push(triangle([at(0.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)]));
         }
@@ -133,7 +135,7 @@ mod tests {
             let y = ((i / size[0]) as f32 + 0.5) / height * 2.0 - 1.0;
             let direction = forward + tangent * (x * width / height * right - y * up);
             RayQuery {
-                origin: camera.position.to_array(),
+                origin: camera.position,
                 direction: direction.normalize().to_array(),
                 t_max: f32::MAX,
             }

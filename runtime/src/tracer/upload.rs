@@ -1,6 +1,6 @@
 //! A scene as buffers on the device.
 
-use glam::{Vec3, Vec3A, Vec4};
+use glam::{Affine3A, Vec3, Vec3A, Vec4};
 use obvhs::triangle::Triangle;
 use wgpu::{Buffer, BufferUsages, Device, Queue};
 
@@ -158,7 +158,7 @@ impl World {
 
     fn place(&mut self, scene: &Scene, instance: &Instance) {
         let mesh = &scene.meshes[instance.mesh];
-        let to_world = instance.world_from_object;
+        let to_world = Affine3A::from_cols_array_2d(&instance.world_from_object);
         let normal_to_world = to_world.matrix3.inverse().transpose();
         for indices in &mesh.triangles {
             let corners = indices.map(|i| i as usize);
@@ -172,8 +172,8 @@ impl World {
             let uvs = corners.map(|i| mesh.uvs[i]);
             self.triangles.push(triangle);
             self.attributes.push(attribute_record(
-                [0, 1, 2].map(|k| normals[k].extend(uvs[k].x)),
-                uvs.map(|uv| uv.y),
+                [0, 1, 2].map(|k| normals[k].extend(uvs[k][0])),
+                uvs.map(|[_, v]| v),
                 index_u32(instance.material),
             ));
         }
@@ -182,8 +182,9 @@ impl World {
     /// Lights are met by chance too, so they are geometry: two triangles, counter-clockwise seen
     /// from where they shine.
     fn place_light(&mut self, light: &RectLight, material: u32) {
-        let normal = light.edge_u.cross(light.edge_v).normalize_or_zero();
-        let at = |u: f32, v: f32| Vec3A::from(light.corner + light.edge_u * u + light.edge_v * v);
+        let [corner, edge_u, edge_v] = light_vectors(light);
+        let normal = edge_u.cross(edge_v).normalize_or_zero();
+        let at = |u: f32, v: f32| Vec3A::from(corner + edge_u * u + edge_v * v);
         for corners in [
             [at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0)],
             [at(0.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)],
@@ -295,12 +296,17 @@ fn frame_record(
     Ok(frame)
 }
 
+fn light_vectors(light: &RectLight) -> [Vec3; 3] {
+    [light.corner, light.edge_u, light.edge_v].map(Vec3::from)
+}
+
 fn light_record(light: &RectLight) -> LightRecord {
-    let cross = light.edge_u.cross(light.edge_v);
+    let [corner, edge_u, edge_v] = light_vectors(light);
+    let cross = edge_u.cross(edge_v);
     LightRecord {
-        corner: vector(light.corner),
-        edge_u: vector(light.edge_u),
-        edge_v: vector(light.edge_v),
+        corner: vector(corner),
+        edge_u: vector(edge_u),
+        edge_v: vector(edge_v),
         normal_area: cross.normalize_or_zero().extend(cross.length()).to_array(),
         radiance: color(light.radiance),
     }
@@ -310,7 +316,7 @@ fn set_camera(frame: &mut FrameRecord, camera: &Camera) -> Result<(), RuntimeErr
     let [right, up, forward] = camera.axes()?;
     let [width, height] = [frame.film_width, frame.film_height].map(|side| side as f32);
     let half_height = (0.5 * camera.fov_y_rad).tan();
-    frame.camera_position = vector(camera.position);
+    frame.camera_position = vector(camera.position.into());
     frame.camera_right = vector(right * (half_height * width / height));
     frame.camera_up = vector(up * half_height);
     frame.camera_forward = vector(forward);

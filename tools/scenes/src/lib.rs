@@ -43,15 +43,15 @@ impl Room {
                     ground: [0.12, 0.12, 0.11],
                 },
                 lights: vec![RectLight {
-                    corner: Vec3::new(-2.2, 4.0, -0.2),
-                    edge_u: Vec3::new(2.4, 0.0, 0.0),
-                    edge_v: Vec3::new(0.0, -0.8, 1.6),
+                    corner: [-2.2, 4.0, -0.2],
+                    edge_u: [2.4, 0.0, 0.0],
+                    edge_v: [0.0, -0.8, 1.6],
                     radiance: [10.5, 10.1, 9.4],
                 }],
                 camera: Camera {
-                    position: Vec3::new(0.25, 1.45, 4.9),
-                    target: Vec3::new(0.0, 0.42, 0.0),
-                    up: Vec3::Y,
+                    position: [0.25, 1.45, 4.9],
+                    target: [0.0, 0.42, 0.0],
+                    up: [0.0, 1.0, 0.0],
                     fov_y_rad: 0.55,
                 },
             },
@@ -107,7 +107,7 @@ impl Room {
             },
             ..Material::default()
         };
-        let size = Vec3::new(width + 0.06, height + 0.06, 0.05);
+        let size = [width + 0.06, height + 0.06, 0.05];
         self.add(Mesh::cuboid(size), frame, place(Vec3::ZERO));
         let face = Self::printed(texture, Surface::Diffuse);
         self.add(Mesh::plane(width, height), face, place(Vec3::Z * 0.026));
@@ -151,7 +151,7 @@ impl Room {
         };
         let center = Vec3::new(1.15, 0.5 * height, 0.1);
         // u = 0.5 faces the camera; of an even number of copies that is a seam, so half a copy more.
-        let to_camera = self.scene.camera.position - center;
+        let to_camera = Vec3::from(self.scene.camera.position) - center;
         let half_copy = if copies % 2.0 == 0.0 {
             std::f32::consts::PI / copies
         } else {
@@ -201,7 +201,7 @@ impl Room {
         self.scene.instances.push(Instance {
             mesh: self.scene.meshes.len(),
             material: self.scene.materials.len(),
-            world_from_object,
+            world_from_object: world_from_object.to_cols_array_2d(),
         });
         self.scene.meshes.push(mesh);
         self.scene.materials.push(material);
