@@ -1,6 +1,7 @@
 //! Ranks against brute force.
 
 use kurbo::{Line, Point, Rect};
+use vtex_testing::Corpus;
 
 use super::{Packing, merge_all, pack, packer::FLATTEN_TOLERANCE};
 use crate::{
@@ -11,7 +12,7 @@ use crate::{
     },
     drawing::FillRule,
     geometry::{flatten, line_line_distance},
-    testing::{Random, corpus_root, drawing_of, random_outline},
+    testing::{Random, drawing_of, random_outline},
 };
 
 const WINDOW: Rect = Rect::new(-50.0, -50.0, 250.0, 250.0);
@@ -138,27 +139,16 @@ fn check_svg(svg: &[u8]) {
 
 /// Disjoint and in order on real drawings, and as few layers as the longest chain allows.
 #[test]
-#[expect(clippy::print_stdout, reason = "says when there is no corpus")]
 fn corpus_ranks_are_the_longest_chains() {
-    let tiger = corpus_root().join("paper5/5_tiger__svgpan__tiger.svg");
-    match std::fs::read(&tiger) {
-        Ok(svg) => check_svg(&svg),
-        Err(_) => println!("no corpus, nothing packed"),
-    }
+    let Some(corpus) = Corpus::find("layers of real drawings") else {
+        return;
+    };
+    check_svg(&corpus.read("paper5/5_tiger__svgpan__tiger.svg"));
     // Brute force takes every pair of lines: small files, and of every kind some.
-    let folders = std::fs::read_dir(corpus_root()).into_iter().flatten();
-    let files = folders
-        .filter_map(|folder| std::fs::read_dir(folder.ok()?.path()).ok())
-        .flatten()
-        .filter_map(|file| Some(file.ok()?.path()));
-    let mut names: Vec<_> = files
-        .filter(|path| !path.parent().is_some_and(|p| p.ends_with("hostile")))
-        .filter(|path| path.extension().is_some_and(|extension| extension == "svg"))
-        .filter(|path| path.metadata().is_ok_and(|file| file.len() <= 16 << 10))
-        .collect();
-    names.sort();
+    let mut names = corpus.drawings();
+    names.retain(|path| path.extension().is_some_and(|ending| ending == "svg"));
+    names.retain(|path| path.metadata().is_ok_and(|file| file.len() <= 16 << 10));
     for path in names.iter().step_by(2) {
-        println!("{}", path.display());
         check_svg(&std::fs::read(path).unwrap());
     }
 }

@@ -1,10 +1,11 @@
 //! The judge against a dense check of its own: fields as baked, through the evaluator's twin.
 
-#![expect(clippy::print_stdout, reason = "says when there is no corpus")]
+#![expect(clippy::print_stdout, reason = "the figures are wanted")]
 
 use kurbo::{BezPath, Circle, ParamCurve, ParamCurveArclen, Point, Rect, Shape as _, Vec2};
 use vtex_format::{Finding, VtexFile};
 use vtex_shaders::{PackOptions, cpu, pack};
+use vtex_testing::Corpus;
 
 use super::{
     candidate::{Candidate, QUANTA, ROUNDING_QUANTA},
@@ -21,7 +22,7 @@ use crate::{
         prepare::{clean, prepare},
     },
     pipeline::assemble,
-    testing::{Random, corpus_file, drawing_of, shape},
+    testing::{Random, drawing_of, shape},
 };
 
 const BLACK: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
@@ -160,16 +161,11 @@ fn samples() -> Vec<(&'static str, Drawing)> {
         "paper5/4_coat_of_arms__openclipart-svg__saxony_coat_of_arms_me_01.svg",
         "paper5/3_text__matplotlib__mathtext_cm_54.svg",
     ];
-    names
-        .into_iter()
-        .filter_map(|name| {
-            let svg = corpus_file(name);
-            if svg.is_none() {
-                println!("no corpus, {name} not judged");
-            }
-            Some((name, drawing_of(&svg?, &config(4.0, 0.1))))
-        })
-        .collect()
+    let Some(corpus) = Corpus::find("the judge on real drawings") else {
+        return Vec::new();
+    };
+    let drawing = |name: &str| drawing_of(&corpus.read(name), &config(4.0, 0.1));
+    names.map(|name| (name, drawing(name))).into()
 }
 
 /// Shapes of real drawings on lattices and with bounds about the limit: what the judge calls good
