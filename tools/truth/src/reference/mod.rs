@@ -2,14 +2,14 @@
 //!
 //! resvg draws the SVG about 16 times as fine as wanted with anti-aliasing off, so every fine pixel
 //! is an exact point sample at its centre; the 257 of a pixel are averaged in linear light,
-//! premultiplied. They lie on a turned lattice (`lattice.rs`): on one along the axes a
+//! premultiplied. They lie on a turned pattern (`sample_pattern.rs`): on one along the axes a
 //! vertical edge is in one of 16 places, and beside black that alone costs 50 of 255 codes. The
 //! scale is exact: uv \[0, 1\] maps to the picture's edges in both directions, whatever the
 //! rounding of the canvas' size to whole pixels. Strokes of plain drawings are expanded at the scale
 //! of the picture (`plain.rs`).
 
-mod lattice;
 mod plain;
+mod sample_pattern;
 mod strokes;
 
 use std::sync::Arc;
@@ -20,8 +20,8 @@ use usvg::fontdb;
 
 use crate::picture::{Picture, View};
 use crate::{TruthError, srgb};
-use lattice::SampleLattice;
 use plain::{Outlines, PlainPaths};
+use sample_pattern::SamplePattern;
 
 /// Samples along each side of a pixel in [`Reference::render`].
 pub const SUPERSAMPLES: u32 = 16;
@@ -98,11 +98,11 @@ impl Reference {
         size_px: [u32; 2],
         samples: u32,
     ) -> Result<Picture, TruthError> {
-        let lattice = SampleLattice::new(samples, self.turns);
+        let pattern = SamplePattern::new(samples, self.turns);
         let side_px = (TILE_FINE_PX / samples).max(1);
         let [columns, rows] = size_px.map(|side| side.div_ceil(side_px));
         let table = srgb::decode_table();
-        let outlines = self.outlines(view, size_px, &lattice);
+        let outlines = self.outlines(view, size_px, &pattern);
         let tiles = (0..columns * rows)
             .into_par_iter()
             .map(|tile| {
@@ -114,12 +114,12 @@ impl Reference {
                     size_px,
                     origin_px,
                     tile_px,
-                    &lattice,
+                    &pattern,
                 )?;
                 Ok((
                     origin_px,
                     tile_px,
-                    average(&fine, tile_px, &lattice, &table),
+                    average(&fine, tile_px, &pattern, &table),
                 ))
             })
             .collect::<Result<Vec<_>, TruthError>>()?;
@@ -138,15 +138,15 @@ impl Reference {
     /// # Errors
     /// When the pixels cannot be allocated.
     pub fn rasterize(&self, size_px: [u32; 2]) -> Result<Pixmap, TruthError> {
-        let upright = SampleLattice::new(1, false);
+        let upright = SamplePattern::new(1, false);
         self.draw(None, View::WHOLE, size_px, [0, 0], size_px, &upright)
     }
 
     /// Plain paths in the fine pixels of a picture.
-    fn outlines(&self, view: View, size_px: [u32; 2], lattice: &SampleLattice) -> Option<Outlines> {
+    fn outlines(&self, view: View, size_px: [u32; 2], pattern: &SamplePattern) -> Option<Outlines> {
         let plain = self.plain.as_ref()?;
-        let affine = self.fine_from_canvas(view, size_px, [0, 0], size_px, lattice);
-        let size = lattice.fine_size(size_px).map(f64::from);
+        let affine = self.fine_from_canvas(view, size_px, [0, 0], size_px, pattern);
+        let size = pattern.fine_size(size_px).map(f64::from);
         Some(plain.outlines(kurbo::Affine::new(affine), size))
     }
 
@@ -157,7 +157,7 @@ impl Reference {
         size_px: [u32; 2],
         origin_px: [u32; 2],
         tile_px: [u32; 2],
-        lattice: &SampleLattice,
+        pattern: &SamplePattern,
     ) -> [f64; 6] {
         let canvas = self.canvas_size();
         let extent = view.extent();
@@ -167,8 +167,8 @@ impl Reference {
         let scale = [0, 1].map(|axis| size[axis] / (canvas[axis] * extent[axis]));
         let shift = [0, 1]
             .map(|axis| -corner[axis] / extent[axis] * size[axis] - f64::from(origin_px[axis]));
-        let [along_x, along_y] = [[scale[0], 0.0], [0.0, scale[1]]].map(|v| lattice.turn(v));
-        let [e, f] = lattice.fine_from_px(shift, tile_px);
+        let [along_x, along_y] = [[scale[0], 0.0], [0.0, scale[1]]].map(|v| pattern.turn(v));
+        let [e, f] = pattern.fine_from_px(shift, tile_px);
         [along_x[0], along_x[1], along_y[0], along_y[1], e, f]
     }
 
@@ -179,15 +179,15 @@ impl Reference {
         size_px: [u32; 2],
         origin_px: [u32; 2],
         tile_px: [u32; 2],
-        lattice: &SampleLattice,
+        pattern: &SamplePattern,
     ) -> Result<Pixmap, TruthError> {
-        let [width, height] = lattice.fine_size(tile_px);
+        let [width, height] = pattern.fine_size(tile_px);
         let mut pixmap = Pixmap::new(width, height).ok_or(TruthError::Memory)?;
         if let Some(outlines) = outlines {
-            let corner = lattice.fine_corner(origin_px, size_px, tile_px);
+            let corner = pattern.fine_corner(origin_px, size_px, tile_px);
             outlines.paint(corner, &mut pixmap.as_mut());
         } else {
-            let affine = self.fine_from_canvas(view, size_px, origin_px, tile_px, lattice);
+            let affine = self.fine_from_canvas(view, size_px, origin_px, tile_px, pattern);
             let [a, b, c, d, e, f] = affine.map(narrow);
             let transform = Transform::from_row(a, b, c, d, e, f);
             resvg::render(&self.tree, transform, &mut pixmap.as_mut());
@@ -225,7 +225,7 @@ fn narrow(value: f64) -> f32 {
 fn average(
     fine: &Pixmap,
     tile_px: [u32; 2],
-    lattice: &SampleLattice,
+    pattern: &SamplePattern,
     table: &[f32; 256],
 ) -> Vec<[f32; 4]> {
     let width = fine.width() as usize;
@@ -234,14 +234,14 @@ fn average(
     for y in 0..tile_px[1] {
         for x in 0..tile_px[0] {
             let mut sum = [0.0_f32; 4];
-            for (row, columns) in lattice.samples_of([x, y], tile_px) {
+            for (row, columns) in pattern.samples_of([x, y], tile_px) {
                 let start = row * width;
                 for texel in &texels[start + columns.start..start + columns.end] {
                     let linear = linear_premultiplied(*texel, table);
                     sum = std::array::from_fn(|c| sum[c] + linear[c]);
                 }
             }
-            pixels.push(sum.map(|channel| channel / lattice.sample_count() as f32));
+            pixels.push(sum.map(|channel| channel / pattern.sample_count() as f32));
         }
     }
     pixels

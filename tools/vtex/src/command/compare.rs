@@ -10,11 +10,11 @@ use vtex_truth::picture::difference_picture;
 use vtex_truth::reference::{Edges, Reference};
 use vtex_truth::texture::{RasterTexture, Shooter, TODAY_TEXELS, canvas_options};
 
-use crate::args::Compare;
-use crate::console::{Console, Format};
-use crate::failure::{ExitCode, Failure, Outcome};
-use crate::fonts::FontLibrary;
-use crate::{input, output, texture};
+use crate::baking::fonts::FontLibrary;
+use crate::cli::args::Compare;
+use crate::cli::{Console, ExitCode, Failure, Format, Outcome};
+use crate::files::{input, output};
+use crate::texture;
 
 /// Runs `vtex compare`.
 pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {

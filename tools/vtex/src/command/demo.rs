@@ -9,14 +9,13 @@ use vtex_truth::comparison::{Column, Comparison, Page, Sizes, Terms, WINDOWS, hu
 use vtex_truth::reference::{Edges, Reference};
 use vtex_truth::texture::{FilterMode, RasterTexture, Shooter, TODAY_TEXELS, canvas_options};
 
-use crate::args::Demo;
 use crate::baking;
-use crate::console::Console;
-use crate::failure::{ExitCode, Failure, Outcome};
-use crate::fonts::FontLibrary;
-use crate::input::{self, Input};
-use crate::output;
-use crate::tracing::{self, SceneKind, Settings};
+use crate::baking::fonts::FontLibrary;
+use crate::cli::args::Demo;
+use crate::cli::{Console, ExitCode, Failure, Outcome};
+use crate::files::input::{self, Input};
+use crate::files::output;
+use crate::texture::film::{self, SceneKind, Settings};
 
 /// Zooms that are shown.
 const ZOOMS: [f64; 4] = [1.0, 8.0, 32.0, 256.0];
@@ -52,8 +51,8 @@ pub(super) fn run(args: Demo, console: Console) -> Outcome<ExitCode> {
             .iter()
             .map(|drawing| drawing.file.clone())
             .collect();
-        let film = tracing::trace(files, SCENE, console)?;
-        let png = tracing::encode(&film, SCENE.kind, Path::new("scene.png"))?;
+        let film = film::trace(files, SCENE, console)?;
+        let png = film::encode(&film, SCENE.kind, Path::new("scene.png"))?;
         page.large_picture(
             png,
             "Path-traced with the textures baked from these drawings",

@@ -8,24 +8,24 @@ const LOOKUPS: usize = 16_384;
 
 /// Mean and 99th percentile over lookups.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Spread {
+pub(crate) struct Spread {
     /// Arithmetic mean.
-    pub mean: f64,
+    pub(crate) mean: f64,
     /// 99th percentile.
-    pub p99: u32,
+    pub(crate) p99: u32,
 }
 
 /// What a magnified point lookup visits.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LookupLoad {
+pub(crate) struct LookupLoad {
     /// Entries up to the first opaque one that covers.
-    pub entries: Spread,
+    pub(crate) entries: Spread,
     /// Segments of these entries that the fine cell holds, and changes of the winding beside it.
-    pub segments: Spread,
+    pub(crate) segments: Spread,
 }
 
 /// Over points spread evenly over the canvas, the same every time.
-pub fn lookup_load(file: &VtexFile) -> LookupLoad {
+pub(crate) fn lookup_load(file: &VtexFile) -> LookupLoad {
     let words = pack(file, &PackOptions::default());
     let sampler = Sampler::new(&words);
     let (mut entries, mut segments) = (Vec::new(), Vec::new());

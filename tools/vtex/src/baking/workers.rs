@@ -11,9 +11,9 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use crate::args::Budget;
-use crate::failure::{ExitCode, Failure, Outcome};
-use crate::wire::{self, Reply, Request, Summary};
+use super::wire::{self, Reply, Request, Summary};
+use crate::cli::args::Budget;
+use crate::cli::{ExitCode, Failure, Outcome};
 
 /// Bytes of a dead worker's last words that are looked at.
 const MAX_LAST_WORDS: u64 = 4096;

@@ -8,15 +8,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use vtex_baker::ImageReader;
 
-use crate::failure::{ExitCode, Failure, Outcome};
-use crate::wire::Summary;
+use super::wire::Summary;
+use crate::cli::{ExitCode, Failure, Outcome};
 
 /// Largest image file that is read.
 const MAX_IMAGE_BYTES: u64 = 256 << 20;
 
 /// Folders below which images may be read.
 #[derive(Clone, Debug, Default)]
-pub struct ImageFolders {
+pub(crate) struct ImageFolders {
     /// With links resolved.
     folders: Arc<Vec<PathBuf>>,
 }
@@ -26,7 +26,7 @@ impl ImageFolders {
     ///
     /// # Errors
     /// When one does not exist.
-    pub fn new(folders: &[PathBuf]) -> Outcome<Self> {
+    pub(crate) fn new(folders: &[PathBuf]) -> Outcome<Self> {
         let resolve = |folder: &PathBuf| match fs::canonicalize(folder) {
             Ok(resolved) if resolved.is_dir() => Ok(resolved),
             _ => {

@@ -1,6 +1,6 @@
 //! A bound of the memory this process may take, set by itself.
 
-use crate::failure::{Failure, Outcome};
+use crate::cli::{Failure, Outcome};
 
 /// Lets this process take `bytes` in all, stacks included; what asks for more ends it. Also keeps
 /// such an end from writing a core dump.

@@ -6,11 +6,11 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::failure::{Failure, Outcome};
+use super::{Failure, Outcome};
 
 /// How results are written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum Format {
+pub(crate) enum Format {
     /// For people.
     #[default]
     Text,
@@ -20,7 +20,7 @@ pub enum Format {
 
 /// How much is told on stderr.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Verbosity {
+pub(crate) enum Verbosity {
     /// Failures only.
     Quiet,
     /// Failures, warnings, one line a result.
@@ -32,11 +32,11 @@ pub enum Verbosity {
 
 /// Where a command writes to.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Console {
+pub(crate) struct Console {
     /// How much is told.
-    pub verbosity: Verbosity,
+    pub(crate) verbosity: Verbosity,
     /// How results are written.
-    pub format: Format,
+    pub(crate) format: Format,
 }
 
 impl Console {
@@ -44,7 +44,7 @@ impl Console {
     ///
     /// # Errors
     /// When stdout cannot be written; a closed pipe is a silent failure.
-    pub fn result(&self, bytes: &[u8]) -> Outcome<()> {
+    pub(crate) fn result(&self, bytes: &[u8]) -> Outcome<()> {
         let mut stdout = io::stdout().lock();
         stdout
             .write_all(bytes)
@@ -56,33 +56,33 @@ impl Console {
     ///
     /// # Errors
     /// As [`Self::result`].
-    pub fn json(&self, value: &serde_json::Value) -> Outcome<()> {
+    pub(crate) fn json(&self, value: &serde_json::Value) -> Outcome<()> {
         self.result(format!("{value:#}\n").as_bytes())
     }
 
     /// Tells what was done, unless `--quiet`.
-    pub fn note(&self, text: &str) {
+    pub(crate) fn note(&self, text: &str) {
         if self.verbosity >= Verbosity::Normal {
             tell(text);
         }
     }
 
     /// Tells details, with `--verbose`.
-    pub fn detail(&self, text: &str) {
+    pub(crate) fn detail(&self, text: &str) {
         if self.verbosity >= Verbosity::Verbose {
             tell(text);
         }
     }
 
     /// Tells of a failure, always.
-    pub fn failure(&self, failure: &Failure) {
+    pub(crate) fn failure(&self, failure: &Failure) {
         if !failure.silent {
             tell(&format!("vtex: {failure}"));
         }
     }
 
     /// A progress bar over `length` steps that shows itself on a terminal after a second.
-    pub fn progress(&self, length: u64, what: &str) -> Progress {
+    pub(crate) fn progress(&self, length: u64, what: &str) -> Progress {
         let wanted = self.verbosity >= Verbosity::Normal && io::stderr().is_terminal();
         let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::hidden());
         if let Ok(style) =
@@ -101,7 +101,7 @@ impl Console {
 
 /// A bar on stderr; see [`Console::progress`].
 #[derive(Debug)]
-pub struct Progress {
+pub(crate) struct Progress {
     bar: ProgressBar,
     begun: Instant,
     wanted: bool,
@@ -109,16 +109,11 @@ pub struct Progress {
 
 impl Progress {
     /// One step more is done.
-    pub fn step(&self) {
+    pub(crate) fn step(&self) {
         if self.wanted && self.bar.is_hidden() && self.begun.elapsed() > Duration::from_secs(1) {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
         self.bar.inc(1);
-    }
-
-    /// Says what is being worked on.
-    pub fn message(&self, text: &str) {
-        self.bar.set_message(text.to_owned());
     }
 }
 

@@ -9,13 +9,12 @@ use vtex_runtime::{Film, Gpu, LoadOptions, ToneMap, TraceOptions, Tracer, scene}
 use vtex_scenes::showroom;
 use vtex_truth::picture::encode_png;
 
-use crate::console::Console;
-use crate::failure::{Failure, Outcome};
-use crate::texture::gpu_failure;
+use crate::cli::{Console, Failure, Outcome};
+use crate::files;
 
 /// What is in the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SceneKind {
+pub(crate) enum SceneKind {
     /// The first texture on a plane, seen straight on.
     Plane,
     /// All of them on things in a room.
@@ -24,17 +23,17 @@ pub enum SceneKind {
 
 /// How a picture is traced.
 #[derive(Clone, Copy, Debug)]
-pub struct Settings {
+pub(crate) struct Settings {
     /// Width and height of the film in pixels.
-    pub size_px: [u32; 2],
+    pub(crate) size_px: [u32; 2],
     /// Samples a pixel.
-    pub spp: u32,
+    pub(crate) spp: u32,
     /// Scatterings of a path.
-    pub bounces: u32,
+    pub(crate) bounces: u32,
     /// Seed of all random numbers.
-    pub seed: u32,
+    pub(crate) seed: u32,
     /// What is in the picture.
-    pub kind: SceneKind,
+    pub(crate) kind: SceneKind,
 }
 
 /// Samples between two looks at the progress bar.
@@ -44,8 +43,8 @@ const SAMPLES_A_STEP: u32 = 4;
 ///
 /// # Errors
 /// When there is no GPU, when it fails, and when the textures do not fit it.
-pub fn trace(files: Vec<VtexFile>, settings: Settings, console: Console) -> Outcome<Film> {
-    let gpu = Gpu::headless().map_err(|error| gpu_failure(&error))?;
+pub(crate) fn trace(files: Vec<VtexFile>, settings: Settings, console: Console) -> Outcome<Film> {
+    let gpu = Gpu::headless()?;
     console.detail(&format!("tracing on {}", gpu.adapter_name()));
     let scene = match (settings.kind, files.first()) {
         (SceneKind::Plane, Some(file)) => scene::plane(file.clone(), LoadOptions::default()),
@@ -56,18 +55,15 @@ pub fn trace(files: Vec<VtexFile>, settings: Settings, console: Console) -> Outc
         seed: settings.seed,
         ..TraceOptions::for_samples(settings.spp)
     };
-    let mut tracer = Tracer::new(&gpu.device, &gpu.queue, &scene, settings.size_px, &options)
-        .map_err(|error| gpu_failure(&error))?;
+    let mut tracer = Tracer::new(&gpu.device, &gpu.queue, &scene, settings.size_px, &options)?;
     let steps = settings.spp.div_ceil(SAMPLES_A_STEP);
     let progress = console.progress(u64::from(steps), "tracing");
     while tracer.samples() < settings.spp {
         let left = settings.spp - tracer.samples();
-        tracer
-            .accumulate(left.min(SAMPLES_A_STEP))
-            .map_err(|error| gpu_failure(&error))?;
+        tracer.accumulate(left.min(SAMPLES_A_STEP))?;
         progress.step();
     }
-    tracer.read().map_err(|error| gpu_failure(&error))
+    Ok(tracer.read()?)
 }
 
 /// The film as the kind of file that `path` names: `.png` is sRGB, tone-mapped where the scene
@@ -75,8 +71,8 @@ pub fn trace(files: Vec<VtexFile>, settings: Settings, console: Console) -> Outc
 ///
 /// # Errors
 /// When `path` names another kind.
-pub fn encode(film: &Film, kind: SceneKind, path: &Path) -> Outcome<Vec<u8>> {
-    match extension(path).as_str() {
+pub(crate) fn encode(film: &Film, kind: SceneKind, path: &Path) -> Outcome<Vec<u8>> {
+    match files::extension(path).as_str() {
         "png" => {
             let tone_map = match kind {
                 SceneKind::Plane => ToneMap::Clip,
@@ -94,12 +90,6 @@ pub fn encode(film: &Film, kind: SceneKind, path: &Path) -> Outcome<Vec<u8>> {
             path.display()
         ))),
     }
-}
-
-/// The extension in lower case; empty when there is none.
-pub fn extension(path: &Path) -> String {
-    path.extension()
-        .map_or_else(String::new, |ext| ext.to_string_lossy().to_lowercase())
 }
 
 fn encode_exr(film: &Film) -> Outcome<Vec<u8>> {

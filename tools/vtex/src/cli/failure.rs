@@ -5,14 +5,13 @@ use std::io;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use vtex_runtime::RuntimeError;
 use vtex_truth::TruthError;
-
-use crate::texture::gpu_failure;
 
 /// Exit codes of the `vtex` command. Scripts depend on the numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[repr(u8)]
-pub enum ExitCode {
+pub(crate) enum ExitCode {
     /// All went well.
     Ok = 0,
     /// The command line is wrong.
@@ -33,21 +32,21 @@ pub enum ExitCode {
 
 /// One failure: one line on stderr and an exit code.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Failure {
+pub(crate) struct Failure {
     /// What the process returns.
-    pub code: ExitCode,
+    pub(crate) code: ExitCode,
     /// Where it happened and what to do, without a trailing full stop or newline.
-    pub message: String,
+    pub(crate) message: String,
     /// Nothing is printed: the reader of our output went away, which is its right.
-    pub silent: bool,
+    pub(crate) silent: bool,
 }
 
 /// Result of a command or a part of it.
-pub type Outcome<T> = Result<T, Failure>;
+pub(crate) type Outcome<T> = Result<T, Failure>;
 
 impl Failure {
     /// A failure with a message; newlines in it become spaces, so that one failure is one line.
-    pub fn new(code: ExitCode, message: impl fmt::Display) -> Self {
+    pub(crate) fn new(code: ExitCode, message: impl fmt::Display) -> Self {
         let message = message.to_string();
         Self {
             code,
@@ -57,12 +56,12 @@ impl Failure {
     }
 
     /// The command line is wrong.
-    pub fn usage(message: impl fmt::Display) -> Self {
+    pub(crate) fn usage(message: impl fmt::Display) -> Self {
         Self::new(ExitCode::Usage, message)
     }
 
     /// An input file is not what it should be.
-    pub fn invalid(path: &Path, message: impl fmt::Display) -> Self {
+    pub(crate) fn invalid(path: &Path, message: impl fmt::Display) -> Self {
         Self::new(
             ExitCode::InvalidInput,
             format!("{}: {message}", path.display()),
@@ -70,12 +69,12 @@ impl Failure {
     }
 
     /// Something failed at run time.
-    pub fn runtime(message: impl fmt::Display) -> Self {
+    pub(crate) fn runtime(message: impl fmt::Display) -> Self {
         Self::new(ExitCode::Runtime, message)
     }
 
     /// `action` on `path` failed.
-    pub fn io(action: &str, path: &Path, error: &io::Error) -> Self {
+    pub(crate) fn io(action: &str, path: &Path, error: &io::Error) -> Self {
         let mut failure = Self::new(
             ExitCode::Io,
             format!("{}: cannot {action}: {error}", path.display()),
@@ -97,10 +96,22 @@ impl fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
+impl From<RuntimeError> for Failure {
+    fn from(error: RuntimeError) -> Self {
+        let code = match error {
+            RuntimeError::Limit(_) => ExitCode::Limit,
+            RuntimeError::Unsupported(_) => ExitCode::Unsupported,
+            RuntimeError::Parameter(_) => ExitCode::Usage,
+            _ => ExitCode::Runtime,
+        };
+        Self::new(code, error)
+    }
+}
+
 impl From<TruthError> for Failure {
     fn from(error: TruthError) -> Self {
         match error {
-            TruthError::Gpu(error) => gpu_failure(&error),
+            TruthError::Gpu(error) => error.into(),
             error => Self::runtime(error),
         }
     }

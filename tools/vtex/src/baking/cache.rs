@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use vtex_baker::BakeConfig;
 use vtex_format::{Limits, VtexFile};
 
-use crate::failure::Outcome;
-use crate::{input, output};
+use crate::cli::Outcome;
+use crate::files::{input, output};
 
 /// A folder of bakes, each named by the hash of source, options, fonts and tool version.
 #[derive(Debug)]
-pub struct Cache {
+pub(crate) struct Cache {
     folder: PathBuf,
 }
 
@@ -19,7 +19,7 @@ impl Cache {
     ///
     /// # Errors
     /// When it cannot be made.
-    pub fn open(folder: &Path) -> Outcome<Self> {
+    pub(crate) fn open(folder: &Path) -> Outcome<Self> {
         output::create_folder(folder)?;
         Ok(Self {
             folder: folder.to_owned(),
@@ -27,7 +27,7 @@ impl Cache {
     }
 
     /// The name under which a bake is kept.
-    pub fn key(svg: &[u8], config: &BakeConfig, fonts: &str) -> String {
+    pub(crate) fn key(svg: &[u8], config: &BakeConfig, fonts: &str) -> String {
         let mut hasher = blake3::Hasher::new();
         // Debug text names every option and every bit of every number.
         for part in [
@@ -46,7 +46,7 @@ impl Cache {
     }
 
     /// The bake kept under `key`; `None` when there is none or it is damaged.
-    pub fn get(&self, key: &str) -> Option<(VtexFile, Vec<u8>)> {
+    pub(crate) fn get(&self, key: &str) -> Option<(VtexFile, Vec<u8>)> {
         let bytes = input::read(&self.path(key)).ok()?;
         let file = VtexFile::parse(&bytes, &Limits::default()).ok()?;
         Some((file, bytes))
@@ -56,7 +56,7 @@ impl Cache {
     ///
     /// # Errors
     /// When it cannot be written.
-    pub fn put(&self, key: &str, bytes: &[u8]) -> Outcome<()> {
+    pub(crate) fn put(&self, key: &str, bytes: &[u8]) -> Outcome<()> {
         output::write(&self.path(key), bytes)
     }
 

@@ -8,18 +8,19 @@ use vtex_truth::comparison::WINDOWS;
 use vtex_truth::picture::View;
 use vtex_truth::texture::FilterMode;
 
-use crate::console::Format;
+use super::Format;
+use super::values::{Color, Matrix, Size, color, matrix, size, view};
 
 /// Bake, look into, check, preview and render vector textures.
 #[derive(Debug, Parser)]
 #[command(name = "vtex", version, about, max_term_width = 100, after_help = EXIT_CODES)]
-pub struct Cli {
+pub(crate) struct Cli {
     /// What to do.
     #[command(subcommand)]
-    pub command: Command,
+    pub(crate) command: Command,
     /// Settings of all commands.
     #[command(flatten)]
-    pub global: Global,
+    pub(crate) global: Global,
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 ok, 1 usage, 2 input/output, 3 invalid input file, \
@@ -27,7 +28,7 @@ const EXIT_CODES: &str = "Exit codes: 0 ok, 1 usage, 2 input/output, 3 invalid i
 
 /// Settings of all commands.
 #[derive(Clone, Copy, Debug, Args)]
-pub struct Global {
+pub(crate) struct Global {
     /// How results are written to standard output
     #[arg(
         long,
@@ -36,21 +37,21 @@ pub struct Global {
         default_value_t,
         value_name = "FORMAT"
     )]
-    pub format: Format,
+    pub(crate) format: Format,
     /// Say nothing but failures
     #[arg(short, long, global = true, conflicts_with = "verbose")]
-    pub quiet: bool,
+    pub(crate) quiet: bool,
     /// Say what is being done, and every warning
     #[arg(short, long, global = true)]
-    pub verbose: bool,
+    pub(crate) verbose: bool,
     /// Threads to use; 0 means one for each core
     #[arg(long, global = true, default_value_t = 0, value_name = "N")]
-    pub threads: usize,
+    pub(crate) threads: usize,
 }
 
 /// What to do.
 #[derive(Debug, Subcommand)]
-pub enum Command {
+pub(crate) enum Command {
     /// Bake SVG into .vtex
     #[command(after_help = PROCESSES)]
     Bake(Box<Bake>),
@@ -86,123 +87,115 @@ const METRICS: &str = "The truth is resvg without anti-aliasing at 257 samples a
 
 /// Fonts for text.
 #[derive(Clone, Debug, Args)]
-pub struct Fonts {
+pub(crate) struct Fonts {
     /// Folder with fonts for text, searched before the system's; may be given several times
     #[arg(long, value_name = "DIR")]
-    pub font_dir: Vec<PathBuf>,
+    pub(crate) font_dir: Vec<PathBuf>,
     /// Do not look at the system's fonts, so that every machine bakes the same
     #[arg(long)]
-    pub no_system_fonts: bool,
+    pub(crate) no_system_fonts: bool,
 }
 
 /// `vtex bake`.
 #[derive(Debug, Args)]
-pub struct Bake {
+pub(crate) struct Bake {
     /// SVG or gzipped SVG files, folders (searched for .svg and .svgz), globs, or -
     #[arg(required = true, value_name = "IN")]
-    pub inputs: Vec<PathBuf>,
+    pub(crate) inputs: Vec<PathBuf>,
     /// File, folder, or - for standard output
     #[arg(short, long, value_name = "OUT")]
-    pub output: PathBuf,
+    pub(crate) output: PathBuf,
     /// What the bake may do.
     #[command(flatten)]
-    pub options: BakeOptions,
+    pub(crate) options: BakeOptions,
     /// Write nothing: compare with the files that are there, exit with 7 when one differs
     #[arg(long)]
-    pub check: bool,
+    pub(crate) check: bool,
     /// Write what each output depends on, as a Makefile
     #[arg(long, value_name = "FILE")]
-    pub depfile: Option<PathBuf>,
+    pub(crate) depfile: Option<PathBuf>,
     /// Keep bakes here and take them from here when source, options and version are the same
     #[arg(long, value_name = "DIR")]
-    pub cache_dir: Option<PathBuf>,
+    pub(crate) cache_dir: Option<PathBuf>,
     /// What one file may use up.
     #[command(flatten)]
-    pub budget: Budget,
+    pub(crate) budget: Budget,
 }
 
 /// What the bake of one file may use up: it runs in a process of its own.
 #[derive(Clone, Copy, Debug, Args)]
-pub struct Budget {
+pub(crate) struct Budget {
     /// Longest that one file may take; past it the exit code is 8
     #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=604_800))]
-    pub timeout: u32,
+    pub(crate) timeout: u32,
     /// Most memory that one file may take; past it the exit code is 8. Not enforced on Windows
     #[arg(long, value_name = "MIB", default_value_t = 2048, value_parser = clap::value_parser!(u32).range(16..=16_777_216))]
-    pub max_memory: u32,
+    pub(crate) max_memory: u32,
 }
 
 /// `vtex worker`.
 #[derive(Debug, Args)]
-pub struct Worker {
+pub(crate) struct Worker {
     /// The command line of the `vtex` that started this one
     #[arg(last = true, required = true)]
-    pub command_line: Vec<OsString>,
+    pub(crate) command_line: Vec<OsString>,
 }
 
 /// Options that change what a bake makes.
 #[derive(Clone, Debug, Args)]
-pub struct BakeOptions {
+pub(crate) struct BakeOptions {
     /// How shapes are stored
     #[arg(long, value_enum, default_value_t)]
-    pub mode: BakeMode,
+    pub(crate) mode: BakeMode,
     /// Largest magnification the geometry is prepared for; 1 shows the canvas at 512 pixels
     #[arg(long, value_name = "Z")]
-    pub max_zoom: Option<f32>,
+    pub(crate) max_zoom: Option<f32>,
     /// Pixels at the largest zoom by which a distance field may displace an edge before its shape
     /// becomes curves
     #[arg(long, value_name = "PX")]
-    pub error: Option<f64>,
+    pub(crate) error: Option<f64>,
     /// Texels of mip 0's longer side
     #[arg(long, value_name = "N")]
-    pub size: Option<u32>,
+    pub(crate) size: Option<u32>,
     /// Texels of the MSDF lattice along the canvas' longer side
     #[arg(long, value_name = "N")]
-    pub msdf_size: Option<u32>,
+    pub(crate) msdf_size: Option<u32>,
     /// Put all shapes into one layer, right only when none overlap
     #[arg(long)]
-    pub merge: bool,
+    pub(crate) merge: bool,
     /// Store coverage only: lookups return alpha
     #[arg(long)]
-    pub mask: bool,
+    pub(crate) mask: bool,
     /// Half width of the paper's constant smoothing, in (0, 0.5]
     #[arg(long, value_name = "S")]
-    pub smoothing: Option<f32>,
+    pub(crate) smoothing: Option<f32>,
     /// Outline of WIDTH texels around every shape from its distance field
     #[arg(long, value_name = "WIDTH", num_args = 0..=1, default_missing_value = "1")]
-    pub outline: Option<f32>,
+    pub(crate) outline: Option<f32>,
     /// Replace every fill's colour (CSS: #d03020, navy, rgb(1 2 3))
     #[arg(long, value_name = "COLOR", value_parser = color)]
-    pub fill_color: Option<Color>,
+    pub(crate) fill_color: Option<Color>,
     /// Replace every stroke's and the outline's colour
     #[arg(long, value_name = "COLOR", value_parser = color)]
-    pub stroke_color: Option<Color>,
+    pub(crate) stroke_color: Option<Color>,
     /// What lookups outside the canvas see
     #[arg(long, value_enum)]
-    pub address: Option<Address>,
+    pub(crate) address: Option<Address>,
     /// Texture matrix: u' = a u + c v + e, v' = b u + d v + f
     #[arg(long, value_name = "a,b,c,d,e,f", value_parser = matrix, allow_hyphen_values = true)]
-    pub transform: Option<Matrix>,
+    pub(crate) transform: Option<Matrix>,
     /// Also draw images in files at or below DIR that the SVG names; may be given several times.
     /// Without it, and from the network in any case, they are left out with a warning
     #[arg(long, value_name = "DIR")]
-    pub allow_images: Vec<PathBuf>,
+    pub(crate) allow_images: Vec<PathBuf>,
     /// Fonts for text.
     #[command(flatten)]
-    pub fonts: Fonts,
+    pub(crate) fonts: Fonts,
 }
-
-/// A colour, straight alpha, sRGB-encoded. A struct, so that clap does not see a list.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Color(pub [f32; 4]);
-
-/// A texture matrix. A struct, so that clap does not see a list.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Matrix(pub [f32; 6]);
 
 /// How shapes are stored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum BakeMode {
+pub(crate) enum BakeMode {
     /// The best for each shape
     #[default]
     Auto,
@@ -216,7 +209,7 @@ pub enum BakeMode {
 
 /// What lookups outside the canvas see.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Address {
+pub(crate) enum Address {
     /// The nearest point of the canvas
     Clamp,
     /// The canvas again
@@ -229,36 +222,36 @@ pub enum Address {
 
 /// `vtex info`.
 #[derive(Debug, Args)]
-pub struct Info {
+pub(crate) struct Info {
     /// The .vtex file, or -
-    pub file: PathBuf,
+    pub(crate) file: PathBuf,
 }
 
 /// `vtex validate`.
 #[derive(Debug, Args)]
-pub struct Validate {
+pub(crate) struct Validate {
     /// .vtex files, or -
     #[arg(required = true, value_name = "FILE")]
-    pub files: Vec<PathBuf>,
+    pub(crate) files: Vec<PathBuf>,
 }
 
 /// How a texture is looked up.
 #[derive(Clone, Copy, Debug, Args)]
-pub struct Lookup {
+pub(crate) struct Lookup {
     /// How a lookup filters
     #[arg(long, value_enum, default_value_t)]
-    pub filter: Filter,
+    pub(crate) filter: Filter,
     /// Who looks up
     #[arg(long, value_enum, default_value_t)]
-    pub backend: Backend,
+    pub(crate) backend: Backend,
     /// Samples a pixel
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=65_536))]
-    pub spp: u32,
+    pub(crate) spp: u32,
 }
 
 /// How a lookup filters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Filter {
+pub(crate) enum Filter {
     /// Hard inside test, the samples smooth
     #[default]
     Point,
@@ -280,7 +273,7 @@ impl From<Filter> for FilterMode {
 
 /// Who looks up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Backend {
+pub(crate) enum Backend {
     /// The evaluator in Rust, needs no GPU
     #[default]
     Cpu,
@@ -290,31 +283,31 @@ pub enum Backend {
 
 /// `vtex preview`.
 #[derive(Debug, Args)]
-pub struct Preview {
+pub(crate) struct Preview {
     /// The .vtex file, or -
-    pub file: PathBuf,
+    pub(crate) file: PathBuf,
     /// PNG to write, or -
     #[arg(short, long, value_name = "PNG")]
-    pub output: PathBuf,
+    pub(crate) output: PathBuf,
     /// Pixels: `WxH`, or N for the longer side
     #[arg(long, default_value = "512", value_parser = size)]
-    pub size: Size,
+    pub(crate) size: Size,
     /// Part of the canvas in uv: left, top, right, bottom
     #[arg(long, value_name = "u0,v0,u1,v1", value_parser = view, allow_hyphen_values = true)]
-    pub view: Option<View>,
+    pub(crate) view: Option<View>,
     /// How it is looked up.
     #[command(flatten)]
-    pub lookup: Lookup,
+    pub(crate) lookup: Lookup,
 }
 
 /// `vtex compare`.
 #[derive(Debug, Args)]
-pub struct Compare {
+pub(crate) struct Compare {
     /// The SVG
     #[arg(value_name = "IN.svg")]
-    pub svg: PathBuf,
+    pub(crate) svg: PathBuf,
     /// The .vtex baked from it
-    pub file: PathBuf,
+    pub(crate) file: PathBuf,
     /// Zooms to measure at; 1 shows the whole canvas
     #[arg(
         long,
@@ -322,142 +315,92 @@ pub struct Compare {
         value_delimiter = ',',
         default_value = "1,8,32,256"
     )]
-    pub zoom: Vec<f64>,
+    pub(crate) zoom: Vec<f64>,
     /// Pixels of the pictures' longer side
     #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(8..=8192))]
-    pub size: u32,
+    pub(crate) size: u32,
     /// How it is looked up.
     #[command(flatten)]
-    pub lookup: Lookup,
+    pub(crate) lookup: Lookup,
     /// Exit with 7 when a zoom's PSNR is below X dB
     #[arg(long, value_name = "X")]
-    pub min_psnr: Option<f64>,
+    pub(crate) min_psnr: Option<f64>,
     /// Windows that each zoom above 1 is compared in
     #[arg(long, value_name = "N", default_value_t = WINDOWS, value_parser = clap::value_parser!(u32).range(1..=1024))]
-    pub windows: u32,
+    pub(crate) windows: u32,
     /// Also tell the truth's own noise: the PSNR of half the samples along each side of a pixel
     /// against all, in the worst window of each zoom
     #[arg(long)]
-    pub noise: bool,
+    pub(crate) noise: bool,
     /// Also write a page with pictures: SVG, vtex, raster 4096
     #[arg(long, value_name = "DIR")]
-    pub html: Option<PathBuf>,
+    pub(crate) html: Option<PathBuf>,
     /// Also write the worst window of the worst zoom: svg.png, vtex.png and difference.png, which
     /// shows differences four times as large
     #[arg(long, value_name = "DIR")]
-    pub pictures: Option<PathBuf>,
+    pub(crate) pictures: Option<PathBuf>,
     /// Fonts for text.
     #[command(flatten)]
-    pub fonts: Fonts,
+    pub(crate) fonts: Fonts,
 }
 
 /// `vtex extract`.
 #[derive(Debug, Args)]
-pub struct Extract {
+pub(crate) struct Extract {
     /// The .vtex file, or -
-    pub file: PathBuf,
+    pub(crate) file: PathBuf,
     /// Folder to write into
     #[arg(short, long, value_name = "DIR")]
-    pub output: PathBuf,
+    pub(crate) output: PathBuf,
 }
 
 /// `vtex render`.
 #[derive(Debug, Args)]
-pub struct Render {
+pub(crate) struct Render {
     /// One .svg or .vtex file for a plane, several for the showroom
     #[arg(required = true, value_name = "SCENE")]
-    pub scene: Vec<PathBuf>,
+    pub(crate) scene: Vec<PathBuf>,
     /// .png (tone-mapped sRGB) or .exr (linear) to write
     #[arg(short, long, value_name = "PNG|EXR")]
-    pub output: PathBuf,
+    pub(crate) output: PathBuf,
     /// Pixels: `WxH`, or N for the longer side
     #[arg(long, default_value = "768", value_parser = size)]
-    pub size: Size,
+    pub(crate) size: Size,
     /// Samples a pixel
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=65_536))]
-    pub spp: u32,
+    pub(crate) spp: u32,
     /// Scatterings of a path
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=64))]
-    pub bounces: u32,
+    pub(crate) bounces: u32,
     /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = 0)]
-    pub seed: u32,
+    pub(crate) seed: u32,
     /// Show the showroom even with one file
     #[arg(long)]
-    pub showroom: bool,
+    pub(crate) showroom: bool,
     /// Fonts for text.
     #[command(flatten)]
-    pub fonts: Fonts,
+    pub(crate) fonts: Fonts,
 }
 
 /// `vtex demo`, called by `tools/demo`.
 #[derive(Debug, Args)]
-pub struct Demo {
+pub(crate) struct Demo {
     /// SVG files
     #[arg(required = true, value_name = "IN")]
-    pub inputs: Vec<PathBuf>,
+    pub(crate) inputs: Vec<PathBuf>,
     /// Folder to write into
     #[arg(short, long, value_name = "DIR")]
-    pub output: PathBuf,
+    pub(crate) output: PathBuf,
     /// Pixels of the pictures' longer side
     #[arg(long, value_name = "N", default_value_t = 360, value_parser = clap::value_parser!(u32).range(8..=4096))]
-    pub size: u32,
+    pub(crate) size: u32,
     /// Leave the path-traced picture out
     #[arg(long)]
-    pub no_render: bool,
+    pub(crate) no_render: bool,
     /// Fonts for text.
     #[command(flatten)]
-    pub fonts: Fonts,
-}
-
-/// Pixels of a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Size {
-    /// The longer side; the other follows from what is shown.
-    Longer(u32),
-    /// Both sides.
-    Exact([u32; 2]),
-}
-
-/// Most pixels along a side of a picture.
-const MAX_SIDE_PX: u32 = 16_384;
-
-fn size(text: &str) -> Result<Size, String> {
-    let side = |text: &str| match text.trim().parse() {
-        Ok(side @ 1..=MAX_SIDE_PX) => Ok(side),
-        _ => Err(format!("a side is 1 to {MAX_SIDE_PX} pixels")),
-    };
-    match text.split_once(['x', 'X']) {
-        Some((width, height)) => Ok(Size::Exact([side(width)?, side(height)?])),
-        None => Ok(Size::Longer(side(text)?)),
-    }
-}
-
-fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    numbers
-        .ok()
-        .filter(|numbers| numbers.iter().all(|number| number.is_finite()))
-        .and_then(|numbers| numbers.try_into().ok())
-        .ok_or_else(|| format!("{N} numbers with commas between are needed"))
-}
-
-fn view(text: &str) -> Result<View, String> {
-    let [u0, v0, u1, v1] = numbers(text)?;
-    if u0 < u1 && v0 < v1 {
-        Ok(View { u0, v0, u1, v1 })
-    } else {
-        Err("left must be below right and top below bottom".to_owned())
-    }
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "the format stores f32")]
-fn matrix(text: &str) -> Result<Matrix, String> {
-    numbers(text).map(|matrix: [f64; 6]| Matrix(matrix.map(|number| number as f32)))
-}
-
-fn color(text: &str) -> Result<Color, String> {
-    crate::color::parse(text).map(Color)
+    pub(crate) fonts: Fonts,
 }
 
 #[cfg(test)]
@@ -469,18 +412,6 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Cli::command().debug_assert();
-    }
-
-    #[test]
-    fn values() {
-        assert_eq!(size("640x480"), Ok(Size::Exact([640, 480])));
-        assert_eq!(size("512"), Ok(Size::Longer(512)));
-        assert!(size("0").is_err() && size("9x").is_err());
-        assert!(view("0,0,1").is_err() && view("1,0,0,1").is_err());
-        assert_eq!(
-            matrix("1,0,0,1,-.5,2"),
-            Ok(Matrix([1.0, 0.0, 0.0, 1.0, -0.5, 2.0]))
-        );
     }
 
     #[test]

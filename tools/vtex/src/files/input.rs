@@ -4,20 +4,20 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use crate::failure::{ExitCode, Failure, Outcome};
+use crate::cli::{ExitCode, Failure, Outcome};
 
 /// Largest input that is read: far above any drawing, far below what a mistaken device would give.
-pub const MAX_INPUT_BYTES: u64 = 1 << 30;
+pub(crate) const MAX_INPUT_BYTES: u64 = 1 << 30;
 
 /// One input.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Input {
+pub(crate) struct Input {
     /// Where it is read from; `-` is standard input.
-    pub path: PathBuf,
+    pub(crate) path: PathBuf,
     /// Its name under the folder that was given, or its file name.
-    pub relative: PathBuf,
+    pub(crate) relative: PathBuf,
     /// Whether it was named by itself rather than found in a folder or by a glob.
-    pub named: bool,
+    pub(crate) named: bool,
 }
 
 impl Input {
@@ -30,7 +30,7 @@ impl Input {
     }
 
     /// Whether this is standard input.
-    pub fn is_stdin(&self) -> bool {
+    pub(crate) fn is_stdin(&self) -> bool {
         self.path.as_os_str() == "-"
     }
 
@@ -38,7 +38,7 @@ impl Input {
     ///
     /// # Errors
     /// When it cannot be read or is larger than [`MAX_INPUT_BYTES`].
-    pub fn read(&self) -> Outcome<Vec<u8>> {
+    pub(crate) fn read(&self) -> Outcome<Vec<u8>> {
         read(&self.path)
     }
 }
@@ -47,7 +47,7 @@ impl Input {
 ///
 /// # Errors
 /// When it cannot be read or is larger than [`MAX_INPUT_BYTES`].
-pub fn read(path: &Path) -> Outcome<Vec<u8>> {
+pub(crate) fn read(path: &Path) -> Outcome<Vec<u8>> {
     let mut bytes = Vec::new();
     let outcome = if path.as_os_str() == "-" {
         io::stdin()
@@ -71,7 +71,7 @@ pub fn read(path: &Path) -> Outcome<Vec<u8>> {
 ///
 /// # Errors
 /// When a folder cannot be listed or an argument matches nothing.
-pub fn expand(arguments: &[PathBuf]) -> Outcome<Vec<Input>> {
+pub(crate) fn expand(arguments: &[PathBuf]) -> Outcome<Vec<Input>> {
     let mut inputs = Vec::new();
     for argument in arguments {
         let before = inputs.len();

@@ -4,12 +4,12 @@ use std::sync::{Arc, OnceLock};
 
 use usvg::fontdb;
 
-use crate::args::Fonts;
-use crate::failure::{ExitCode, Failure, Outcome};
+use crate::cli::args::Fonts;
+use crate::cli::{ExitCode, Failure, Outcome};
 
 /// The fonts that the command line names.
 #[derive(Debug)]
-pub struct FontLibrary {
+pub(crate) struct FontLibrary {
     wanted: Fonts,
     loaded: OnceLock<Arc<fontdb::Database>>,
 }
@@ -19,7 +19,7 @@ impl FontLibrary {
     ///
     /// # Errors
     /// When a font folder does not exist.
-    pub fn new(wanted: Fonts) -> Outcome<Self> {
+    pub(crate) fn new(wanted: Fonts) -> Outcome<Self> {
         if let Some(missing) = wanted.font_dir.iter().find(|dir| !dir.is_dir()) {
             let message = format!("{}: there is no such font folder", missing.display());
             return Err(Failure::new(ExitCode::Io, message));
@@ -31,7 +31,7 @@ impl FontLibrary {
     }
 
     /// The fonts, or none when `svg` holds no text.
-    pub fn for_svg(&self, svg: &[u8]) -> Arc<fontdb::Database> {
+    pub(crate) fn for_svg(&self, svg: &[u8]) -> Arc<fontdb::Database> {
         if may_hold_text(svg) {
             self.load()
         } else {
@@ -41,7 +41,7 @@ impl FontLibrary {
 
     /// What a bake of `svg` hangs on besides the SVG, for cache keys: the faces by name, place
     /// and size of their files.
-    pub fn fingerprint(&self, svg: &[u8]) -> String {
+    pub(crate) fn fingerprint(&self, svg: &[u8]) -> String {
         let fonts = self.for_svg(svg);
         let mut faces: Vec<String> = fonts.faces().map(describe).collect();
         faces.sort();

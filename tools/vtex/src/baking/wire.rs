@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use vtex_format::{VtexFile, Warning};
 
-use crate::failure::Failure;
+use crate::cli::Failure;
 
 /// Bytes of a line: far above any list of warnings, far below what would fill the reader's memory
 /// should the writer run wild.

@@ -1,4 +1,11 @@
-//! From command-line options to a bake.
+//! From command-line options to a bake, in this process or in limited ones.
+
+pub(crate) mod cache;
+pub(crate) mod fonts;
+pub(crate) mod images;
+pub(crate) mod memory;
+pub(crate) mod wire;
+pub(crate) mod workers;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -7,15 +14,13 @@ use rayon::prelude::*;
 use vtex_baker::{BakeConfig, BakeError, Mode, Resources, Stage};
 use vtex_format::{AddressMode, VtexFile};
 
-use crate::args::{Address, BakeMode, BakeOptions};
-use crate::failure::{ExitCode, Failure, Outcome};
-use crate::fonts::FontLibrary;
+use crate::cli::args::{Address, BakeMode, BakeOptions};
+use crate::cli::{ExitCode, Failure, Outcome, panicked};
+use fonts::FontLibrary;
 
-/// The baker's options for those of the command line; what was not given keeps its default.
-///
-/// # Errors
-/// When a mode is asked for that this version does not have.
-pub fn config(options: &BakeOptions) -> Outcome<BakeConfig> {
+/// The baker's options for those of the command line; an option that is not given keeps the baker's
+/// default.
+pub(crate) fn config(options: &BakeOptions) -> BakeConfig {
     let default = BakeConfig::default();
     let mode = match options.mode {
         BakeMode::Auto => Mode::Auto,
@@ -29,7 +34,7 @@ pub fn config(options: &BakeOptions) -> Outcome<BakeConfig> {
         Address::Mirror => AddressMode::Mirror,
         Address::Border => AddressMode::Border,
     });
-    Ok(BakeConfig {
+    BakeConfig {
         mode,
         error_px: options.error.unwrap_or(default.error_px),
         max_zoom: options.max_zoom.unwrap_or(default.max_zoom),
@@ -46,14 +51,14 @@ pub fn config(options: &BakeOptions) -> Outcome<BakeConfig> {
             .transform
             .map_or(default.texture_matrix, |matrix| matrix.0),
         ..default
-    })
+    }
 }
 
 /// Bakes the SVG read from `path` in this process, without bounds of time and memory.
 ///
 /// # Errors
 /// By whose fault it is: the file's, an option's, a budget's, or ours.
-pub fn bake(
+pub(crate) fn bake(
     path: &Path,
     svg: &[u8],
     config: &BakeConfig,
@@ -71,7 +76,7 @@ pub fn bake(
 ///
 /// # Errors
 /// As [`bake`].
-pub fn bake_with(
+pub(crate) fn bake_with(
     path: &Path,
     svg: &[u8],
     config: &BakeConfig,
@@ -96,23 +101,11 @@ fn failure(path: &Path, error: &BakeError) -> Failure {
     Failure::new(code, format!("{}: {error}", path.display()))
 }
 
-/// The failure for a panic, which is always our defect.
-pub fn panicked(doing: &str, panic: &(dyn std::any::Any + Send)) -> Failure {
-    let text = panic
-        .downcast_ref::<&str>()
-        .copied()
-        .or_else(|| panic.downcast_ref::<String>().map(String::as_str))
-        .unwrap_or("no message");
-    Failure::runtime(format!(
-        "{doing}: a defect of vtex, please report it: {text}"
-    ))
-}
-
 /// The bytes of a baked file.
 ///
 /// # Errors
 /// When the baker made a file that breaks its own format.
-pub fn to_bytes(path: &Path, file: &VtexFile) -> Outcome<Vec<u8>> {
+pub(crate) fn to_bytes(path: &Path, file: &VtexFile) -> Outcome<Vec<u8>> {
     let run = |count, job: &(dyn Fn(usize) + Sync)| (0..count).into_par_iter().for_each(job);
     file.to_bytes_by(&run)
         .map_err(|error| Failure::runtime(format!("{}: {error}", path.display())))

@@ -10,12 +10,12 @@ use vtex_format::{
 use vtex_truth::comparison::human_bytes;
 use vtex_truth::texture::patch_cover;
 
-use crate::args::Info;
-use crate::console::{Console, Format};
-use crate::failure::{ExitCode, Outcome};
-use crate::heat::cell_loads;
-use crate::walk::{Spread, lookup_load};
-use crate::{input, texture};
+use crate::cli::args::Info;
+use crate::cli::{Console, ExitCode, Format, Outcome};
+use crate::files::input;
+use crate::texture;
+use crate::texture::heat::cell_loads;
+use crate::texture::lookup_cost::{Spread, lookup_load};
 
 mod shapes;
 
@@ -33,7 +33,7 @@ pub(super) fn run(args: &Info, console: Console) -> Outcome<ExitCode> {
     match console.format {
         Format::Json => console.json(&json(&file, &directory))?,
         Format::Text => {
-            let all = console.verbosity == crate::console::Verbosity::Verbose;
+            let all = console.verbosity == crate::cli::Verbosity::Verbose;
             let shown = if all { usize::MAX } else { SHAPES_SHOWN };
             console.result(text(&file, &directory, shown).as_bytes())?;
         }

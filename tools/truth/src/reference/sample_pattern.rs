@@ -9,7 +9,7 @@ use std::ops::Range;
 /// there. So every pixel has the same `n^2 + 1` samples, no two of them in one column or row.
 /// (A rank-1 lattice; Sloan and Joe 1994.)
 #[derive(Clone, Debug)]
-pub(crate) struct SampleLattice {
+pub(crate) struct SamplePattern {
     /// Of the map from pixels to the finer picture, `((n, t), (-t, n))`: `t` is 1 or 0.
     n: u32,
     t: u32,
@@ -17,10 +17,10 @@ pub(crate) struct SampleLattice {
     runs: Vec<(i64, Range<i64>)>,
 }
 
-impl SampleLattice {
+impl SamplePattern {
     /// With `n` samples along a pixel's side.
     pub(crate) fn new(n: u32, turned: bool) -> Self {
-        let mut lattice = Self {
+        let mut pattern = Self {
             n,
             t: u32::from(turned),
             runs: Vec::new(),
@@ -28,14 +28,14 @@ impl SampleLattice {
         let reach = i64::from(n) + 1;
         for row in -reach..=reach {
             let mut columns =
-                (-reach..=reach).filter(|&column| lattice.in_first_pixel(column, row));
+                (-reach..=reach).filter(|&column| pattern.in_first_pixel(column, row));
             if let Some(first) = columns.next() {
                 // A pixel is convex, so the columns follow each other.
                 let last = columns.next_back().unwrap_or(first);
-                lattice.runs.push((row, first..last + 1));
+                pattern.runs.push((row, first..last + 1));
             }
         }
-        lattice
+        pattern
     }
 
     /// Whether the centre of a fine pixel lies in pixel (0, 0), left and top edge included.
@@ -111,18 +111,18 @@ mod tests {
     #[test]
     fn pixels_share_the_finer_picture_without_rest() {
         for (n, turned) in [(1, false), (16, false), (1, true), (2, true), (16, true)] {
-            let lattice = SampleLattice::new(n, turned);
+            let pattern = SamplePattern::new(n, turned);
             let tile_px = [5, 3];
-            let [width, height] = lattice.fine_size(tile_px);
+            let [width, height] = pattern.fine_size(tile_px);
             let mut seen = BTreeSet::new();
             for y in 0..tile_px[1] {
                 for x in 0..tile_px[0] {
-                    let samples = lattice.samples_of([x, y], tile_px);
+                    let samples = pattern.samples_of([x, y], tile_px);
                     let places = samples.flat_map(|(row, columns)| columns.map(move |c| (row, c)));
                     let before = seen.len();
                     seen.extend(places);
                     let added = u32::try_from(seen.len() - before).unwrap();
-                    assert_eq!(added, lattice.sample_count(), "{n} {x} {y}");
+                    assert_eq!(added, pattern.sample_count(), "{n} {x} {y}");
                 }
             }
             let fits =
@@ -133,10 +133,10 @@ mod tests {
 
     #[test]
     fn a_turned_pixel_has_one_sample_a_column_and_a_row() {
-        let lattice = SampleLattice::new(16, true);
+        let pattern = SamplePattern::new(16, true);
         let mut across = BTreeSet::new();
         let mut down = BTreeSet::new();
-        for (row, columns) in &lattice.runs {
+        for (row, columns) in &pattern.runs {
             for column in columns.clone() {
                 // As in `in_first_pixel`: twice the place in the pixel, in 257ths.
                 let [x, y] = [2 * column + 1, 2 * row + 1];

@@ -19,15 +19,15 @@ const SINGLE: [u8; 4] = [70, 80, 90, 255];
 
 /// What a cell's list holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct CellLoad {
+pub(crate) struct CellLoad {
     /// Entries; 0 for empty and single-colour cells.
-    pub entries: u32,
+    pub(crate) entries: u32,
     /// Lines and quadratics in the curve records of all entries.
-    pub segments: u32,
+    pub(crate) segments: u32,
 }
 
 /// The load of each cell, row by row.
-pub fn cell_loads(file: &VtexFile) -> Vec<CellLoad> {
+pub(crate) fn cell_loads(file: &VtexFile) -> Vec<CellLoad> {
     let load = |&word: &u32| {
         let mut load = CellLoad::default();
         for entry in list(file, word) {
@@ -65,17 +65,17 @@ fn segment_count(file: &VtexFile, entry: Entry) -> u32 {
 
 /// A picture of one count a cell.
 #[derive(Debug)]
-pub struct HeatMap {
+pub(crate) struct HeatMap {
     /// Width and height.
-    pub size_px: [u32; 2],
+    pub(crate) size_px: [u32; 2],
     /// Row by row from the top.
-    pub rgba: Vec<u8>,
+    pub(crate) rgba: Vec<u8>,
     /// What its colours mean.
-    pub legend: Value,
+    pub(crate) legend: Value,
 }
 
 /// Draws `counts`, one a cell. Cells without a list have colours of their own.
-pub fn heat_map(file: &VtexFile, counts: &[u32]) -> HeatMap {
+pub(crate) fn heat_map(file: &VtexFile, counts: &[u32]) -> HeatMap {
     let bounds = bounds(counts.iter().copied().max().unwrap_or(0));
     let color = |(&word, &count): (&u32, &u32)| match CellWord::decode(word) {
         Some(CellWord::Solid { .. }) => SINGLE,

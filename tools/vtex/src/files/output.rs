@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use vtex_truth::comparison::Page;
 
-use crate::failure::{ExitCode, Failure, Outcome};
+use crate::cli::{ExitCode, Failure, Outcome};
 
 /// Writes `bytes` to `path`: to a temporary name in the same folder, then renamed over it, so
 /// that no reader ever sees half a file and a failure leaves what was there. Devices and pipes
@@ -14,7 +14,7 @@ use crate::failure::{ExitCode, Failure, Outcome};
 ///
 /// # Errors
 /// When the folder is missing or the file cannot be written.
-pub fn write(path: &Path, bytes: &[u8]) -> Outcome<()> {
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Outcome<()> {
     let target = resolve(path);
     match fs::metadata(&target) {
         Ok(existing) if existing.is_dir() => Err(Failure::new(
@@ -83,7 +83,7 @@ fn explain(path: &Path, error: &io::Error) -> Failure {
 ///
 /// # Errors
 /// When the folder cannot be made or a file cannot be written.
-pub fn write_page(folder: &Path, page: Page) -> Outcome<()> {
+pub(crate) fn write_page(folder: &Path, page: Page) -> Outcome<()> {
     for file in page.finish() {
         let path = folder.join(&file.name);
         create_folder(folder_of(&path))?;
@@ -96,7 +96,7 @@ pub fn write_page(folder: &Path, page: Page) -> Outcome<()> {
 ///
 /// # Errors
 /// When the system refuses.
-pub fn create_folder(path: &Path) -> Outcome<()> {
+pub(crate) fn create_folder(path: &Path) -> Outcome<()> {
     fs::create_dir_all(path).map_err(|error| Failure::io("create the folder", path, &error))
 }
 
