@@ -5,7 +5,7 @@ use super::{
     draft::{CurvesDraft, draft_curves},
     unit::Present,
 };
-use crate::tree::{Clip, ClipPart};
+use crate::drawing::tree::{Clip, ClipPart};
 
 /// Where in the cell.
 #[derive(Clone, Debug, PartialEq)]

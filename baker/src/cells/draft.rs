@@ -4,7 +4,9 @@ use vtex_format::{SourceRecord, cut::CellCurves};
 
 use super::{CellInput, TileDraft, unit::Present};
 use crate::{
-    curves::record::encode_record, drawing::FillRule, paint_table::PaintTable, placed::PlacedKind,
+    cells::paint_table::PaintTable,
+    coverage::{curves::record::encode_record, placed::PlacedKind},
+    drawing::FillRule,
 };
 
 /// An entry before tiles have indices.

@@ -12,7 +12,7 @@ use super::{
     draft::{CurvesDraft, Draft},
     unit::{GroupDraft, ScopeDraft, Unit},
 };
-use crate::{error::BakeError, paint_table::PaintTable};
+use crate::{cells::paint_table::PaintTable, error::BakeError};
 
 /// Puts drafts into the file's sections, equal ones once.
 pub(super) struct ListEncoder<'a> {

@@ -3,6 +3,9 @@
 mod clip;
 mod draft;
 mod encode;
+pub(crate) mod packing;
+pub(crate) mod paint_table;
+pub(crate) mod sources;
 #[cfg(test)]
 mod tests;
 mod unit;
@@ -10,13 +13,14 @@ mod unit;
 use vtex_format::SourceRecord;
 
 use crate::{
-    cover::Cover,
+    cells::{packing::Packing, paint_table::PaintTable},
+    coverage::{
+        cover::Cover,
+        grid::Lattice,
+        placed::{Placed, PlacedKind},
+    },
+    drawing::tree::Tree,
     error::BakeError,
-    grid::Lattice,
-    paint_table::PaintTable,
-    placed::{Placed, PlacedKind},
-    subset::Packing,
-    tree::Tree,
 };
 use encode::ListEncoder;
 use unit::{Present, Unit};

@@ -8,9 +8,11 @@ use super::{
     draft::{Draft, draft_run},
 };
 use crate::{
-    color,
-    paint_table::PaintTable,
-    tree::{Mask, Node, Scope},
+    cells::paint_table::PaintTable,
+    drawing::{
+        color,
+        tree::{Mask, Node, Scope},
+    },
 };
 
 /// An item that concerns a cell.

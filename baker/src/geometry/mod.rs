@@ -3,6 +3,8 @@
 mod clamp;
 mod flatten;
 mod overlap;
+pub(crate) mod prepare;
+pub(crate) mod stroke;
 #[cfg(test)]
 mod tests;
 mod winding;

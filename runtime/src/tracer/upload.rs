@@ -4,16 +4,17 @@ use glam::{Vec3, Vec3A, Vec4};
 use obvhs::triangle::Triangle;
 use wgpu::{Buffer, BufferUsages, Device, Queue};
 
-use super::TraceOptions;
 use super::records::{
     AttributeRecord, FrameRecord, LightRecord, MaterialRecord, NONE, SURFACE_DIFFUSE,
     SURFACE_GLOSSY, TriangleRecord,
 };
-use crate::gpu::filled_buffer;
-use crate::load::PackedTextures;
-use crate::mesh::MAX_TRIANGLES;
-use crate::scene::{Instance, MAX_LIGHTS, Material, RectLight, Scene, Surface};
-use crate::{Camera, RuntimeError, bvh};
+use super::textures::PackedTextures;
+use super::{TraceOptions, bvh};
+use crate::RuntimeError;
+use crate::device::{checked, filled_buffer};
+use crate::scene::{
+    Camera, Instance, MAX_LIGHTS, MAX_TRIANGLES, Material, RectLight, Scene, Surface,
+};
 
 /// Deepest hierarchy the shader's stack holds; see `BVH_STACK_SIZE` there.
 const MAX_BVH_DEPTH: usize = 32;
@@ -42,7 +43,7 @@ struct World {
 }
 
 impl SceneBuffers {
-    pub(super) fn upload(
+    pub(super) async fn upload(
         device: &Device,
         queue: &Queue,
         scene: &Scene,
@@ -69,26 +70,24 @@ impl SceneBuffers {
         let packed = PackedTextures::new(&scene.textures)?;
         let materials = material_records(scene, &packed.first_words);
         let frame_record = frame_record(scene, size, options, &triangles)?;
-        let storage = |label: &str, bytes: &[u8]| {
-            filled_buffer(device, queue, label, bytes, BufferUsages::STORAGE)
-        };
-        Ok(Self {
-            frame: filled_buffer(
-                device,
-                queue,
-                "vtex frame",
-                bytemuck::bytes_of(&frame_record),
-                BufferUsages::UNIFORM,
-            )?,
-            frame_record,
-            nodes: storage("vtex BVH nodes", bytemuck::cast_slice(&bvh.nodes))?,
-            triangles: storage("vtex triangles", bytemuck::cast_slice(&triangles))?,
-            attributes: storage("vtex attributes", bytemuck::cast_slice(&attributes))?,
-            materials: storage("vtex materials", bytemuck::cast_slice(&materials))?,
-            textures: storage("vtex textures", bytemuck::cast_slice(&packed.words))?,
-            texture_features: packed.features,
-            source_triangles: bvh.primitive_indices,
+        checked(device, "scene", || {
+            let filled =
+                |label, bytes: &[u8], usage| filled_buffer(device, queue, label, bytes, usage);
+            let storage = |label, bytes: &[u8]| filled(label, bytes, BufferUsages::STORAGE);
+            let frame = bytemuck::bytes_of(&frame_record);
+            Ok(Self {
+                frame: filled("vtex frame", frame, BufferUsages::UNIFORM)?,
+                frame_record,
+                nodes: storage("vtex BVH nodes", bytemuck::cast_slice(&bvh.nodes))?,
+                triangles: storage("vtex triangles", bytemuck::cast_slice(&triangles))?,
+                attributes: storage("vtex attributes", bytemuck::cast_slice(&attributes))?,
+                materials: storage("vtex materials", bytemuck::cast_slice(&materials))?,
+                textures: storage("vtex textures", bytemuck::cast_slice(&packed.words))?,
+                texture_features: packed.features,
+                source_triangles: bvh.primitive_indices,
+            })
         })
+        .await
     }
 
     /// In the order of group 0 of `root/render.wgsl`.

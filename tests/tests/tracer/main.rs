@@ -7,6 +7,7 @@
     reason = "helpers of tests fail as tests do, by panicking"
 )]
 
+mod awaited;
 mod batch;
 
 use vtex_format::{
@@ -279,7 +280,7 @@ fn half_transparent_surfaces_let_half_the_light_through() {
 #[test]
 fn same_seed_same_picture_however_it_is_cut() {
     let Some(gpu) = gpu() else { return };
-    let scene = scene::showroom(vec![quarters()]);
+    let scene = vtex_scenes::showroom(vec![quarters()]);
     let options = TraceOptions::default();
     let picture = |cuts: &[u32], options: &TraceOptions| {
         let mut tracer = Tracer::new(&gpu.device, &gpu.queue, &scene, [40, 30], options).unwrap();
@@ -415,6 +416,9 @@ fn a_scene_that_contradicts_itself_is_refused() {
 fn an_empty_scene_is_sky() {
     let mut scene = furnace(Mesh::default(), Material::default());
     scene.instances.clear();
+    // A binding may not be empty, though there is nothing to bind.
+    scene.meshes.clear();
+    scene.materials.clear();
     let Some(film) = render(&scene, [8, 8], 2, &TraceOptions::default()) else {
         return;
     };

@@ -4,9 +4,11 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use vtex_truth::comparison::WINDOWS;
+use vtex_truth::picture::View;
+use vtex_truth::texture::FilterMode;
 
 use crate::console::Format;
-use crate::picture::View;
 
 /// Bake, look into, check, preview and render vector textures.
 #[derive(Debug, Parser)]
@@ -266,6 +268,16 @@ pub enum Filter {
     Paper,
 }
 
+impl From<Filter> for FilterMode {
+    fn from(filter: Filter) -> Self {
+        match filter {
+            Filter::Point => Self::Point,
+            Filter::Footprint => Self::Footprint,
+            Filter::Paper => Self::Paper,
+        }
+    }
+}
+
 /// Who looks up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Backend {
@@ -321,7 +333,7 @@ pub struct Compare {
     #[arg(long, value_name = "X")]
     pub min_psnr: Option<f64>,
     /// Windows that each zoom above 1 is compared in
-    #[arg(long, value_name = "N", default_value_t = crate::windows::WINDOWS, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[arg(long, value_name = "N", default_value_t = WINDOWS, value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub windows: u32,
     /// Also tell the truth's own noise: the PSNR of half the samples along each side of a pixel
     /// against all, in the worst window of each zoom

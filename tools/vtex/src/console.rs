@@ -132,19 +132,3 @@ fn tell(text: &str) {
     // Nobody is left to hear that stderr is gone.
     let _ = writeln!(io::stderr().lock(), "{text}");
 }
-
-/// `1234567` as `1.2 MiB`.
-pub fn human_bytes(bytes: u64) -> String {
-    const UNITS: [&str; 4] = ["KiB", "MiB", "GiB", "TiB"];
-    if bytes < 1024 {
-        return format!("{bytes} B");
-    }
-    // Rounding to one digit is the purpose.
-    let mut value = bytes as f64 / 1024.0;
-    let mut unit = 0;
-    while value >= 1000.0 && unit + 1 < UNITS.len() {
-        value /= 1024.0;
-        unit += 1;
-    }
-    format!("{value:.1} {}", UNITS[unit])
-}

@@ -5,6 +5,9 @@ use std::io;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use vtex_truth::TruthError;
+
+use crate::texture::gpu_failure;
 
 /// Exit codes of the `vtex` command. Scripts depend on the numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -93,3 +96,12 @@ impl fmt::Display for Failure {
 }
 
 impl std::error::Error for Failure {}
+
+impl From<TruthError> for Failure {
+    fn from(error: TruthError) -> Self {
+        match error {
+            TruthError::Gpu(error) => gpu_failure(&error),
+            error => Self::runtime(error),
+        }
+    }
+}

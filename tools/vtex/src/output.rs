@@ -4,6 +4,8 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use vtex_truth::comparison::Page;
+
 use crate::failure::{ExitCode, Failure, Outcome};
 
 /// Writes `bytes` to `path`: to a temporary name in the same folder, then renamed over it, so
@@ -75,6 +77,19 @@ fn explain(path: &Path, error: &io::Error) -> Failure {
         );
     }
     Failure::io("write", path, error)
+}
+
+/// Writes a page into `folder`, the pictures before the text that shows them.
+///
+/// # Errors
+/// When the folder cannot be made or a file cannot be written.
+pub fn write_page(folder: &Path, page: Page) -> Outcome<()> {
+    for file in page.finish() {
+        let path = folder.join(&file.name);
+        create_folder(folder_of(&path))?;
+        write(&path, &file.bytes)?;
+    }
+    Ok(())
 }
 
 /// Makes a folder and those above it.

@@ -2,15 +2,13 @@
 
 use std::path::Path;
 
-use vtex_format::{AddressMode, Limits, ReadError, VtexFile};
-use vtex_runtime::{BatchSampler, Gpu, LoadOptions, RuntimeError, Trust};
-use vtex_shaders::layout::FilterMode;
-use vtex_shaders::{PackOptions, cpu};
+use vtex_format::{Limits, ReadError, VtexFile};
+use vtex_runtime::{Gpu, RuntimeError};
+use vtex_shaders::PackOptions;
+use vtex_truth::texture::Shooter;
 
-use crate::args::{Backend, Filter};
+use crate::args::Backend;
 use crate::failure::{ExitCode, Failure, Outcome};
-use crate::picture::Picture;
-use crate::preview::Shot;
 
 /// Parses the bytes of the file at `path`.
 ///
@@ -41,87 +39,16 @@ pub fn gpu_failure(error: &RuntimeError) -> Failure {
     Failure::new(code, error)
 }
 
-/// Pack options for a filter.
-pub fn pack_options(filter: Filter) -> PackOptions {
-    PackOptions {
-        filter: match filter {
-            Filter::Point => FilterMode::Point,
-            Filter::Footprint => FilterMode::Footprint,
-            Filter::Paper => FilterMode::Paper,
-        },
-        ..PackOptions::default()
-    }
-}
-
-/// As [`pack_options`], showing the canvas as it is whatever texture matrix and address mode the
-/// file asks for: for comparisons with the drawing.
-pub fn canvas_options(filter: Filter) -> PackOptions {
-    PackOptions {
-        address: Some([AddressMode::Clamp; 2]),
-        texture_matrix: Some([1.0, 0.0, 0.0, 1.0, 0.0, 0.0]),
-        ..pack_options(filter)
-    }
-}
-
-/// Takes pictures of one texture.
-#[derive(Debug)]
-pub enum Shooter {
-    /// With the evaluator in Rust.
-    Cpu {
-        /// The packed texture.
-        words: Vec<u32>,
-    },
-    /// With the evaluator in WGSL.
-    Gpu {
-        /// The uploaded texture; boxed, for it is large.
-        sampler: Box<BatchSampler>,
-    },
-}
-
-impl Shooter {
-    /// Prepares a texture for pictures.
-    ///
-    /// # Errors
-    /// When there is no GPU or the texture does not fit it.
-    pub fn new(file: &VtexFile, pack: PackOptions, backend: Backend) -> Outcome<Self> {
-        match backend {
-            Backend::Cpu => Ok(Self::Cpu {
-                words: vtex_shaders::pack(file, &pack),
-            }),
-            Backend::Gpu => {
-                let gpu = Gpu::headless().map_err(|error| gpu_failure(&error))?;
-                Self::on_gpu(&gpu, file, pack)
-            }
-        }
-    }
-
-    /// Prepares a texture for pictures on a GPU that is open already.
-    ///
-    /// # Errors
-    /// When the texture does not fit the GPU.
-    pub fn on_gpu(gpu: &Gpu, file: &VtexFile, pack: PackOptions) -> Outcome<Self> {
-        let options = LoadOptions { pack };
-        let trust = Trust::default();
-        let sampler = BatchSampler::new(&gpu.device, &gpu.queue, file, &options, trust)
-            .map_err(|error| gpu_failure(&error))?;
-        Ok(Self::Gpu {
-            sampler: Box::new(sampler),
-        })
-    }
-
-    /// Takes a picture.
-    ///
-    /// # Errors
-    /// When the GPU fails.
-    pub fn shoot(&self, shot: Shot) -> Outcome<Picture> {
-        match self {
-            Self::Cpu { words } => {
-                let sampler = cpu::Sampler::new(words);
-                Ok(shot.shoot(|uv, footprint| sampler.sample(uv, footprint)))
-            }
-            Self::Gpu { sampler } => shot
-                .shoot_batches(|queries| sampler.sample(queries))
-                .map_err(|error| gpu_failure(&error)),
+/// Prepares a texture for pictures by whoever the command line names.
+///
+/// # Errors
+/// When there is no GPU or the texture does not fit it.
+pub fn shooter(file: &VtexFile, pack: PackOptions, backend: Backend) -> Outcome<Shooter> {
+    match backend {
+        Backend::Cpu => Ok(Shooter::on_cpu(file, pack)),
+        Backend::Gpu => {
+            let gpu = Gpu::headless().map_err(|error| gpu_failure(&error))?;
+            Ok(Shooter::on_gpu(&gpu, file, pack)?)
         }
     }
 }

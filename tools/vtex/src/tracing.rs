@@ -6,10 +6,11 @@ use std::path::Path;
 use exr::prelude::{Image, Vec2, WritableImage};
 use vtex_format::VtexFile;
 use vtex_runtime::{Film, Gpu, LoadOptions, ToneMap, TraceOptions, Tracer, scene};
+use vtex_scenes::showroom;
+use vtex_truth::picture::encode_png;
 
 use crate::console::Console;
 use crate::failure::{Failure, Outcome};
-use crate::picture::encode_png;
 use crate::texture::gpu_failure;
 
 /// What is in the picture.
@@ -48,7 +49,7 @@ pub fn trace(files: Vec<VtexFile>, settings: Settings, console: Console) -> Outc
     console.detail(&format!("tracing on {}", gpu.adapter_name()));
     let scene = match (settings.kind, files.first()) {
         (SceneKind::Plane, Some(file)) => scene::plane(file.clone(), LoadOptions::default()),
-        _ => scene::showroom(files),
+        _ => showroom(files),
     };
     let options = TraceOptions {
         max_bounces: settings.bounces,
@@ -81,11 +82,11 @@ pub fn encode(film: &Film, kind: SceneKind, path: &Path) -> Outcome<Vec<u8>> {
                 SceneKind::Plane => ToneMap::Clip,
                 SceneKind::Showroom => ToneMap::Reinhard,
             };
-            encode_png(
+            Ok(encode_png(
                 film.size,
                 &film.to_srgb8_with(1.0, tone_map),
                 png::Compression::Balanced,
-            )
+            )?)
         }
         "exr" => encode_exr(film),
         _ => Err(Failure::usage(format!(

@@ -11,11 +11,12 @@ use std::time::Instant;
 use serde_json::{Value, json};
 use vtex_baker::BakeConfig;
 use vtex_format::Warning;
+use vtex_truth::comparison::human_bytes;
 
 use crate::args::Bake;
 use crate::baking;
 use crate::cache::Cache;
-use crate::console::{Console, Format, human_bytes};
+use crate::console::{Console, Format};
 use crate::failure::{ExitCode, Failure, Outcome};
 use crate::fonts::FontLibrary;
 use crate::images::ImageFolders;

@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 use vtex_format::{CellWord, Entry, EntryKind, Image, VtexFile};
+use vtex_truth::picture::encode_png;
+use vtex_truth::srgb;
 
 use crate::args::Extract;
 use crate::console::Console;
 use crate::failure::{ExitCode, Outcome};
 use crate::heat::{cell_loads, heat_map};
-use crate::picture::encode_png;
-use crate::{input, output, srgb, texture};
+use crate::{input, output, texture};
 
 /// Runs `vtex extract`.
 pub(super) fn run(args: &Extract, console: Console) -> Outcome<ExitCode> {

@@ -7,12 +7,13 @@ use vtex_format::{
     COVERAGE_IMAGE, CellWord, Directory, Features, Limits, ShapeRecord, VtexFile, Warning,
     directory,
 };
+use vtex_truth::comparison::human_bytes;
+use vtex_truth::texture::patch_cover;
 
 use crate::args::Info;
-use crate::console::{Console, Format, human_bytes};
+use crate::console::{Console, Format};
 use crate::failure::{ExitCode, Outcome};
 use crate::heat::cell_loads;
-use crate::patches::patch_cover;
 use crate::walk::{Spread, lookup_load};
 use crate::{input, texture};
 

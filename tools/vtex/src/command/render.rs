@@ -4,12 +4,12 @@ use std::path::Path;
 
 use vtex_baker::BakeConfig;
 use vtex_format::VtexFile;
+use vtex_truth::picture::View;
 
 use crate::args::{Render, Size};
 use crate::console::Console;
 use crate::failure::{ExitCode, Failure, Outcome};
 use crate::fonts::FontLibrary;
-use crate::picture::View;
 use crate::tracing::{self, SceneKind, Settings};
 use crate::{baking, input, output, texture};
 
