@@ -1,11 +1,10 @@
 //! Where clips let a group show in one cell, as a run of tests with jumps.
 
 use super::{
-    CellInput,
     draft::{CurvesDraft, draft_curves},
-    unit::Present,
+    input::{CellInput, Present},
 };
-use crate::tree::{Clip, ClipPart};
+use crate::drawing::tree::{Clip, ClipPart};
 
 /// Where in the cell.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,9 +2,14 @@
 
 use vtex_format::{SourceRecord, cut::CellCurves};
 
-use super::{CellInput, TileDraft, unit::Present};
+use super::{
+    input::{CellInput, Present},
+    lists::TileDraft,
+    paint_table::PaintTable,
+};
 use crate::{
-    curves::record::encode_record, drawing::FillRule, paint_table::PaintTable, placed::PlacedKind,
+    coverage::{curves::record::encode_record, placed::PlacedKind},
+    drawing::FillRule,
 };
 
 /// An entry before tiles have indices.

@@ -5,6 +5,7 @@
 
 mod ci;
 mod corpus;
+mod rooms;
 mod tidy;
 mod workspace;
 
@@ -15,6 +16,7 @@ use workspace::Workspace;
 const USAGE: &str = "\
 usage: cargo xtask ci [STEP...]   all checks, or the named ones
        cargo xtask tidy           the rules that no compiler knows
+       cargo xtask rooms          files, import circles and floors of every crate and folder
        cargo xtask corpus DIR     every SVG of a folder baked and measured; alone: its options";
 
 /// Exit code of a difference found, as `vtex compare`'s.
@@ -26,6 +28,7 @@ fn main() -> ExitCode {
     let result = match arguments.split_first() {
         Some((name, steps)) if name == "ci" => Workspace::find().and_then(|ws| ci::run(&ws, steps)),
         Some((name, [])) if name == "tidy" => Workspace::find().and_then(|ws| tidy::run(&ws)),
+        Some((name, [])) if name == "rooms" => Workspace::find().and_then(|ws| rooms::run(&ws)),
         Some((name, [])) if name == "corpus" => {
             eprintln!("{}", corpus::USAGE);
             return ExitCode::from(1);

@@ -5,6 +5,13 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail, ensure};
 
+/// A package of the workspace.
+pub(crate) struct Member {
+    pub(crate) name: String,
+    /// Relative to the root.
+    pub(crate) folder: String,
+}
+
 /// The checkout this tool was built from.
 pub(crate) struct Workspace {
     root: PathBuf,
@@ -66,6 +73,25 @@ impl Workspace {
     pub(crate) fn read(&self, file: &str) -> Result<Option<String>> {
         let bytes = std::fs::read(self.root.join(file)).with_context(|| file.to_owned())?;
         Ok(String::from_utf8(bytes).ok())
+    }
+
+    /// The workspace's own packages, in the order of their names.
+    pub(crate) fn members(&self) -> Result<Vec<Member>> {
+        let arguments = ["metadata", "--format-version", "1", "--locked", "--no-deps"];
+        let text = Self::output_of(self.cargo(&arguments))?;
+        let metadata: serde_json::Value = serde_json::from_str(&text)?;
+        let packages = metadata["packages"].as_array();
+        let mut members = Vec::new();
+        for package in packages.context("cargo metadata has no packages")? {
+            let manifest = package["manifest_path"].as_str().unwrap_or_default();
+            let folder = Path::new(manifest).parent().unwrap_or(&self.root);
+            members.push(Member {
+                name: package["name"].as_str().unwrap_or_default().to_owned(),
+                folder: folder.strip_prefix(&self.root)?.display().to_string(),
+            });
+        }
+        members.sort_by(|a, b| a.name.cmp(&b.name));
+        Ok(members)
     }
 
     /// `cargo metadata` with the dependencies that are built on this machine; those behind a

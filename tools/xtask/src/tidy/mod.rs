@@ -6,6 +6,7 @@ mod text;
 
 use anyhow::{Context, Result};
 
+use crate::rooms;
 use crate::workspace::Workspace;
 
 /// Checks the whole workspace and prints what is wrong. False when something is.
@@ -34,6 +35,7 @@ pub(crate) fn run(ws: &Workspace) -> Result<bool> {
         &read(specification::ISSUES)?,
         &read(specification::DOCUMENT)?,
     ));
+    problems.extend(rooms::problems(ws, &files)?);
     for problem in &problems {
         println!("{problem}");
     }

@@ -1,0 +1,156 @@
+//! What each item is to the cells, by its kind of coverage.
+
+use kurbo::Affine;
+use rayon::prelude::*;
+use vtex_format::{CurveLattice, SourceOutline, cut::CellCurves};
+
+use crate::coverage::{
+    classify::{ShapeCells, classify},
+    curve_lattice::{curve_lattice, flatness_units},
+    curves::{
+        CurveError,
+        lower::LoweredOutline,
+        record::encode_record,
+        source::source_outline,
+        split::split,
+        sweep::{CutParams, cut_to_cells},
+    },
+    grid::Lattice,
+    placed::{Placed, PlacedKind},
+    scales::Scales,
+};
+
+/// Segments of one shape in one cell; more would leave no room in the cell's list.
+const MAX_CELL_SEGMENTS: usize = vtex_format::MAX_LIST_ITEMS as usize * 3 / 4;
+
+/// An item against the grid.
+#[derive(Debug, Default)]
+pub(crate) struct Cover {
+    /// Where it is listed; without edges for tiles unless it has a distance field.
+    pub(crate) cells: ShapeCells,
+    /// Its outline in the cells that list it, cell by cell, if it is curves.
+    pub(crate) curves: Vec<CellCurves>,
+    /// The whole outline as the file stores it, if it is curves and the lattice holds it.
+    pub(crate) source: Option<SourceOutline>,
+    /// Where each listed cell's part of `curves` begins; empty where each has one.
+    firsts: Vec<u32>,
+}
+
+impl Cover {
+    /// Of what covers the whole canvas.
+    pub(crate) fn everywhere(lattice: &Lattice) -> Self {
+        let count = u32::try_from(lattice.cell_count()).unwrap_or(u32::MAX);
+        let mut cover = Self::default();
+        cover.cells.full = (0..count).collect();
+        cover
+    }
+
+    /// Its outline in `cell`: strips that add up to it, most often one. Empty unless it is curves.
+    pub(crate) fn curves_in(&self, cell: u32) -> &[CellCurves] {
+        let Ok(index) = self.cells.listed.binary_search(&cell) else {
+            return &[];
+        };
+        let first_of = |index: usize| match self.firsts.get(index) {
+            Some(&first) => first as usize,
+            None if self.firsts.is_empty() => index,
+            None => self.curves.len(),
+        };
+        let range = first_of(index)..first_of(index + 1);
+        self.curves.get(range).unwrap_or(&[])
+    }
+}
+
+/// Covers every item; an error where a shape cannot be curves.
+pub(crate) fn cover(
+    placed: &[Placed],
+    lattice: &Lattice,
+    scales: &Scales,
+) -> Vec<Result<Cover, CurveError>> {
+    let cutter = curve_lattice(placed, lattice, scales)
+        .map(|curve_lattice| Cutter::new(lattice, curve_lattice, scales));
+    let cover_one = |placed: &Placed| {
+        if placed.kind == PlacedKind::Patch {
+            return Ok(Cover::default());
+        }
+        if let (true, Some(cutter)) = (placed.is_curves(), &cutter) {
+            return cutter.cut(placed);
+        }
+        Ok(Cover {
+            cells: classify(placed, lattice, scales.distances),
+            ..Cover::default()
+        })
+    };
+    placed.par_iter().map(cover_one).collect()
+}
+
+/// Cuts outlines to cells.
+struct Cutter {
+    params: CutParams,
+    units_from_steps: Affine,
+}
+
+impl Cutter {
+    fn new(lattice: &Lattice, curve_lattice: CurveLattice, scales: &Scales) -> Self {
+        let units_per_step = f64::from(curve_lattice.units_per_cell) / lattice.cell_steps();
+        Self {
+            params: CutParams {
+                size_cells: lattice.grid.size_cells,
+                lattice: curve_lattice,
+                flatness_units: f64::from(flatness_units(
+                    lattice,
+                    curve_lattice,
+                    scales.longer_side_px,
+                )),
+            },
+            units_from_steps: Affine::scale(units_per_step),
+        }
+    }
+
+    fn cut(&self, placed: &Placed) -> Result<Cover, CurveError> {
+        let outline = self.units_from_steps * &placed.outline;
+        let lowered = LoweredOutline::new(&outline, self.params.flatness_units)?;
+        let shape = cut_to_cells(&lowered, &self.params);
+        let source = source_outline(&lowered, placed.rule);
+        let mut cells = ShapeCells::default();
+        for (cell, winding) in shape.covered {
+            if placed.rule.fills(winding) {
+                cells.full.push(cell);
+            }
+        }
+        let mut curves = Vec::with_capacity(shape.edges.len());
+        let mut firsts = Vec::new();
+        // Strips of a cell are not what the reader would cut.
+        let mut whole = true;
+        let size = f64::from(self.params.lattice.box_units());
+        for (cell, cell_curves) in shape.edges {
+            firsts.push(u32::try_from(curves.len()).map_err(|_| CurveError::Overflow)?);
+            let segments = cell_curves.segments.len();
+            let parts = match encode_record(&[&cell_curves], placed.rule) {
+                Ok(_) => vec![cell_curves],
+                Err(_) => {
+                    whole = false;
+                    split(cell_curves, placed.rule, size)?
+                }
+            };
+            // A list has room for one such shape.
+            if segments > MAX_CELL_SEGMENTS {
+                return Err(CurveError::Overflow);
+            }
+            for part in &parts {
+                encode_record(&[part], placed.rule)?;
+            }
+            cells.listed.push(cell);
+            curves.extend(parts);
+        }
+        let source = source.filter(|_| whole);
+        if curves.len() == cells.listed.len() {
+            firsts = Vec::new();
+        }
+        Ok(Cover {
+            cells,
+            curves,
+            source,
+            firsts,
+        })
+    }
+}

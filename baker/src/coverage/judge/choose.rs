@@ -1,0 +1,276 @@
+//! The size of the lattice, and with it the kind of each shape.
+
+use rayon::prelude::*;
+use vtex_format::{FieldError, Finding};
+
+use super::{
+    candidate::Candidate,
+    cost::{Cost, Extent, ground},
+    measure::{Measured, measure},
+};
+use crate::{
+    config::BakeConfig,
+    coverage::{
+        grid::Lattice,
+        placed::place_prepared,
+        scales::Scales,
+        verdict::{Coverage, Judgement, Verdict},
+    },
+    drawing::{Drawing, Item},
+    geometry::prepare::{Note, Prepared, clean, prepare},
+    number::to_f32,
+};
+
+/// Lines of this mean width in steps or less are hairlines: no field holds both their edges.
+/// Measured: of 51 shapes of the Tiger that fail at 64 texels a shape, 39 are such strokes.
+const HAIRLINE_STEPS: f64 = 1.0;
+
+/// Fields must cost less than this share of what curves alone would: estimates are about as good,
+/// and a file of two kinds has the code of both.
+const WORTHWHILE: f64 = 0.95;
+
+/// Bits of a float that reports keep: 7 of the mantissa.
+const SHORT_FLOAT: u32 = 0xFFFF_0000;
+
+/// A shape before its kind is known.
+struct Subject {
+    prepared: Prepared,
+    /// Of the prepared outline.
+    extent: Extent,
+    /// Of the outline as drawn.
+    drawn: Extent,
+}
+
+/// What judging a shape at one size came to.
+#[derive(Clone, Copy, Debug)]
+struct Trial {
+    finding: Finding,
+    size_texels: u32,
+    measured: Option<Measured>,
+}
+
+/// The choice among sizes: a trial a shape, and whether it is to be a distance field.
+struct Choice {
+    size: u32,
+    trials: Vec<Option<Trial>>,
+    fields: Vec<bool>,
+    cost: f64,
+}
+
+/// Judges every shape at the sizes that may pay and takes what costs least.
+///
+/// The least that a size can cost, every shape being what is cheaper, is known before anything is
+/// measured. Sizes are tried from the most promising on, until the next could not be better than
+/// what was found. The first is measured in any case, for the report.
+pub(super) fn choose(
+    drawing: &Drawing,
+    config: &BakeConfig,
+    candidates: &[Candidate],
+) -> Judgement {
+    let choosing = Choosing::new(drawing, config);
+    let mut promises: Vec<(f64, &Candidate)> = candidates
+        .iter()
+        .map(|candidate| (choosing.least_cost(candidate), candidate))
+        .collect();
+    promises.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let curves = WORTHWHILE * choosing.whole.relative_to(choosing.whole);
+    let mut best: Option<Choice> = None;
+    for (promise, candidate) in promises {
+        if best
+            .as_ref()
+            .is_some_and(|best| promise >= best.cost.min(curves))
+        {
+            break;
+        }
+        let choice = choosing.try_candidate(candidate);
+        if best.as_ref().is_none_or(|best| choice.cost < best.cost) {
+            best = Some(choice);
+        }
+    }
+    let Some(mut best) = best else {
+        return Judgement {
+            verdicts: Vec::new(),
+            msdf_size: config.msdf_size,
+        };
+    };
+    if best.cost >= curves {
+        best.fields.fill(false);
+    }
+    best.into_judgement(config.msdf_size)
+}
+
+impl Choice {
+    /// `msdf_size` is the size that stands where no shape becomes a field.
+    fn into_judgement(self, msdf_size: u32) -> Judgement {
+        let has_fields = self.fields.contains(&true);
+        let verdicts = self.trials.into_iter().zip(self.fields);
+        Judgement {
+            verdicts: verdicts
+                .map(|(trial, field)| verdict(trial, field))
+                .collect(),
+            msdf_size: if has_fields { self.size } else { msdf_size },
+        }
+    }
+}
+
+/// One subject an item; only shapes have one.
+fn subjects(drawing: &Drawing, longer_side_px: f64) -> Vec<Option<Subject>> {
+    let longer = drawing.longer_side();
+    let subject = |item: &Item| match item {
+        Item::Shape(shape) => {
+            let prepared = prepare(shape, longer);
+            let drawn = clean(&shape.outline, longer);
+            Some(Subject {
+                extent: Extent::new(&prepared.outline, drawing.canvas_size, longer_side_px),
+                drawn: Extent::new(&drawn, drawing.canvas_size, longer_side_px),
+                prepared,
+            })
+        }
+        Item::Patch(_) | Item::Clip(_) => None,
+    };
+    drawing.items.par_iter().map(subject).collect()
+}
+
+/// What all sizes are compared by.
+struct Choosing {
+    subjects: Vec<Option<Subject>>,
+    mip0_size: u32,
+    /// Cost of the drawing with nothing but curves, on the grid it would then have.
+    whole: Cost,
+}
+
+impl Choosing {
+    fn new(drawing: &Drawing, config: &BakeConfig) -> Self {
+        let subjects = subjects(drawing, config.longer_side_px());
+        let mip0_size = config.mip0_size;
+        let lattice = Lattice::for_curves(drawing.canvas_size, config.msdf_size, mip0_size);
+        let margin = Scales::new(config, &lattice).distances.margin;
+        let whole = subjects
+            .iter()
+            .flatten()
+            .map(|subject| subject.drawn.as_curves(&lattice, margin))
+            .fold(ground(&lattice, mip0_size), Cost::plus);
+        Self {
+            subjects,
+            mip0_size,
+            whole,
+        }
+    }
+
+    /// The cost on the candidate's lattice if every shape that pays as a field could be one.
+    fn least_cost(&self, candidate: &Candidate) -> f64 {
+        self.cost(candidate, &vec![true; self.subjects.len()])
+    }
+
+    /// The drawing's cost on the candidate's lattice, where shapes with a `true` may be distance
+    /// fields, as a multiple of `whole`.
+    fn cost(&self, candidate: &Candidate, may_be_fields: &[bool]) -> f64 {
+        let cost_of = |(subject, &may_be_field): (&Option<Subject>, &bool)| {
+            let subject = subject.as_ref()?;
+            let [field, curves] = subject.costs(candidate);
+            let is_field = may_be_field && subject.pays_as_field(candidate, self.whole);
+            Some(if is_field { field } else { curves })
+        };
+        self.subjects
+            .iter()
+            .zip(may_be_fields)
+            .filter_map(cost_of)
+            .fold(ground(&candidate.lattice, self.mip0_size), Cost::plus)
+            .relative_to(self.whole)
+    }
+
+    fn try_candidate(&self, candidate: &Candidate) -> Choice {
+        let trials: Vec<Option<Trial>> = self
+            .subjects
+            .par_iter()
+            .map(|subject| Some(subject.as_ref()?.judge_at(candidate)))
+            .collect();
+        let sound = |trial: &Option<Trial>| trial.is_some_and(|t| t.finding == Finding::None);
+        let within: Vec<bool> = trials.iter().map(sound).collect();
+        let pays = |subject: &Option<Subject>| {
+            let subject = subject.as_ref();
+            subject.is_some_and(|subject| subject.pays_as_field(candidate, self.whole))
+        };
+        Choice {
+            size: candidate.size,
+            cost: self.cost(candidate, &within),
+            fields: self
+                .subjects
+                .iter()
+                .zip(&within)
+                .map(|(subject, &within)| within && pays(subject))
+                .collect(),
+            trials,
+        }
+    }
+}
+
+impl Subject {
+    /// As a distance field, and as curves.
+    fn costs(&self, candidate: &Candidate) -> [Cost; 2] {
+        let margin = candidate.scales.distances.margin;
+        [
+            self.extent.as_msdf(candidate),
+            self.drawn.as_curves(&candidate.lattice, margin),
+        ]
+    }
+
+    /// Whether a distance field costs less than curves; what shows nowhere is curves.
+    fn pays_as_field(&self, candidate: &Candidate, whole: Cost) -> bool {
+        let [field, curves] = self.costs(candidate).map(|cost| cost.relative_to(whole));
+        field < curves
+    }
+
+    fn judge_at(&self, candidate: &Candidate) -> Trial {
+        let placed = place_prepared(&self.prepared, &candidate.lattice);
+        let trial = |finding, measured| Trial {
+            finding,
+            size_texels: placed.size_texels(),
+            measured,
+        };
+        let units_per_step = candidate.lattice.lattice_from_canvas.as_coeffs()[0].recip();
+        if self.prepared.note == Note::Failed {
+            return trial(Finding::Overlaps, None);
+        }
+        if self.extent.width <= HAIRLINE_STEPS * units_per_step {
+            return trial(Finding::Hairline, None);
+        }
+        let measured = measure(&placed, candidate);
+        let finding = if measured.within(candidate.error_px) {
+            Finding::None
+        } else {
+            measured.cause
+        };
+        trial(finding, Some(measured))
+    }
+}
+
+fn verdict(trial: Option<Trial>, field: bool) -> Verdict {
+    let Some(trial) = trial else {
+        return Verdict::forced(Coverage::Msdf);
+    };
+    Verdict {
+        coverage: if field {
+            Coverage::Msdf
+        } else {
+            Coverage::Curves
+        },
+        finding: match trial.finding {
+            Finding::None if !field => Finding::Cost,
+            finding => finding,
+        },
+        size_texels: trial.size_texels,
+        error: trial
+            .measured
+            .map(|measured| error_record(measured.p99_px, measured.wrong)),
+    }
+}
+
+/// Two to three digits are enough for a report, and pack well.
+fn error_record(p99_px: f64, wrong_share: f64) -> FieldError {
+    let short = |x: f64| f32::from_bits(to_f32(x).to_bits() & SHORT_FLOAT);
+    FieldError {
+        wrong_share: short(wrong_share),
+        p99_px: short(p99_px),
+    }
+}

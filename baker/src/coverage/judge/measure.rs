@@ -1,0 +1,351 @@
+//! How far a shape's distance field is off, and where.
+
+use kurbo::{BezPath, Line, ParamCurve, ParamCurveDeriv, PathSeg, Point, Vec2};
+use rayon::prelude::*;
+use vtex_format::Finding;
+
+use super::candidate::Candidate;
+use crate::{
+    coverage::{
+        classify::{ShapeCells, classify, tile_spec},
+        msdf::render_tile,
+        placed::Placed,
+    },
+    geometry::{flatten, line_line_distance},
+    number::floor_index,
+};
+
+/// Share of probes around the edge that a distance field may put on the wrong side.
+pub(super) const WRONG_SHARE_BOUND: f64 = 1e-3;
+/// Distance of probes along the outline in steps; texels are a step apart. More where there would
+/// be too many.
+const PROBE_STEPS: f64 = 0.25;
+/// Probes of one shape: bounds the time for long outlines, and a p99 rests on 600 of them.
+const MAX_PROBES: f64 = 65_536.0;
+/// Errors that are asked for their cause, spread over all.
+const MAX_CAUSES: usize = 1024;
+/// How far probes may lie beside the outline, as a share of the bound on the error.
+const FOLLOW_SHARE: f64 = 0.02;
+/// Probes beside the edge stand off by this many times the bound on the error.
+const STAND_OFF: f64 = 2.0;
+/// Displacements are followed this far, in this many strides that grow evenly.
+const WALK_REACH_STEPS: f64 = 2.0;
+const WALK_STRIDES: u32 = 64;
+/// Edges of slivers thinner than this share of the bound on the error show nothing and are not
+/// asked about. More than [`FOLLOW_SHARE`].
+const SLIVER_SHARE: f64 = 0.1;
+/// No field is taken to be flatter than this, distance a step.
+const FLATTEST_SLOPE: f64 = 0.25;
+/// Where a shape or a gap in it is thinner than this many steps, its two edges share texels.
+const THIN_STEPS: f64 = 1.5;
+/// Errors nearer than this to a sharp corner are put down to it: a corner of 20 degrees is thinner
+/// than [`THIN_STEPS`] as far as that.
+const CUSP_REACH_STEPS: f64 = 4.0;
+/// Cosine of the largest angle of a corner that counts as sharp: 30 degrees.
+const CUSP_COSINE: f64 = 0.866;
+
+/// Error of a distance field at the wanted zoom.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Measured {
+    /// 99th percentile of the edge's displacement, in pixels.
+    pub(super) p99_px: f64,
+    /// Share of probes around the edge that come out on the wrong side.
+    pub(super) wrong: f64,
+    /// Where most of the error is, if it is beyond the bound.
+    pub(super) cause: Finding,
+}
+
+impl Measured {
+    /// Whether the field may stand for the shape.
+    pub(super) fn within(&self, error_px: f64) -> bool {
+        self.p99_px <= error_px && self.wrong <= WRONG_SHARE_BOUND
+    }
+}
+
+/// Measures the field that `placed`, on the candidate's lattice, would have by itself.
+pub(super) fn measure(placed: &Placed, candidate: &Candidate) -> Measured {
+    Field::new(placed, candidate).measure()
+}
+
+/// The distance field of one shape alone.
+struct Field<'a> {
+    placed: &'a Placed,
+    candidate: &'a Candidate,
+    cells: ShapeCells,
+    /// One a cell of [`ShapeCells::listed`].
+    tiles: Vec<Vec<u8>>,
+}
+
+/// What probes found.
+#[derive(Default)]
+struct Tally {
+    displacements_px: Vec<f64>,
+    compared: u32,
+    wrong: u32,
+    /// Places of errors beyond the bound, with a normal where they lie on the edge.
+    errors: Vec<(Point, Vec2)>,
+}
+
+impl<'a> Field<'a> {
+    fn new(placed: &'a Placed, candidate: &'a Candidate) -> Self {
+        let Candidate {
+            lattice, scales, ..
+        } = candidate;
+        let cells = classify(placed, lattice, scales.distances);
+        let tile = |&cell: &u32| {
+            let shapes = vec![cells.tile_shape(cell, &placed.region)];
+            render_tile(&tile_spec(cell, lattice, scales, shapes))
+        };
+        let tiles = cells.listed.par_iter().map(tile).collect();
+        Self {
+            placed,
+            candidate,
+            cells,
+            tiles,
+        }
+    }
+
+    fn measure(&self) -> Measured {
+        let mut tally = Tally::default();
+        self.probe_edges(&mut tally);
+        self.probe_cells(&mut tally);
+        let off = &mut tally.displacements_px;
+        off.sort_by(f64::total_cmp);
+        Measured {
+            p99_px: off.get(off.len() * 99 / 100).copied().unwrap_or(0.0),
+            wrong: f64::from(tally.wrong) / f64::from(tally.compared.max(1)),
+            cause: self.cause(&tally.errors),
+        }
+    }
+
+    /// Along the edge for its displacement, and beside it for the side.
+    fn probe_edges(&self, tally: &mut Tally) {
+        let Candidate {
+            px_per_step,
+            error_px,
+            ..
+        } = *self.candidate;
+        let stand_off = STAND_OFF * error_px / px_per_step;
+        let tolerance = FOLLOW_SHARE * error_px / px_per_step;
+        let sliver = SLIVER_SHARE * error_px / px_per_step;
+        for (p, normal) in probes(&self.placed.outline, tolerance) {
+            let sides = [p + sliver * normal, p - sliver * normal];
+            let [left, right] = sides.map(|p| self.placed.region.contains(p));
+            let Some(distance) = self.distance(p).filter(|_| left != right) else {
+                continue;
+            };
+            let beside = [1.0, -1.0].map(|side| p + side * stand_off * normal);
+            let around = beside.map(|beside| self.distance(beside));
+            // Where two edges mix, the field is flatter than a distance and its zero further off.
+            let slope = match around {
+                [Some(a), Some(b)] => ((a - b) / (2.0 * stand_off)).abs(),
+                _ => 1.0,
+            };
+            let guess = distance.abs() / slope.clamp(FLATTEST_SLOPE, 1.0) * px_per_step;
+            let off = if guess > error_px {
+                let inwards = if left { normal } else { -normal };
+                self.displacement(p, distance, inwards) * px_per_step
+            } else {
+                guess
+            };
+            tally.displacements_px.push(off);
+            let mut bad = off > error_px;
+            for (beside, distance) in beside.into_iter().zip(around) {
+                let Some(distance) = distance else { continue };
+                tally.compared += 1;
+                if self.is_wrong(beside, distance) {
+                    tally.wrong += 1;
+                    bad = true;
+                }
+            }
+            if bad {
+                tally.errors.push((p, normal));
+            }
+        }
+    }
+
+    /// All over the cells that the edge passes through, one point between every four texels: the
+    /// median of three fields can be wrong far from any edge.
+    fn probe_cells(&self, tally: &mut Tally) {
+        let lattice = &self.candidate.lattice;
+        let columns = lattice.grid.size_cells[0];
+        let steps = lattice.grid.texels_per_cell;
+        for &cell in &self.cells.listed {
+            let corner = [cell % columns, cell / columns].map(|index| index * steps);
+            for k in 0..steps * steps {
+                // The additive recurrence R2 of Roberts (2018) spreads points within the texels.
+                let within = |share: f64| (f64::from(k + 1) * share).fract();
+                let p = Point::new(
+                    f64::from(corner[0] + k % steps) + within(0.754_877_666_246_692_8),
+                    f64::from(corner[1] + k / steps) + within(0.569_840_290_998_053_3),
+                );
+                let Some(distance) = self.distance(p) else {
+                    continue;
+                };
+                tally.compared += 1;
+                if self.is_wrong(p, distance) {
+                    tally.wrong += 1;
+                    tally.errors.push((p, Vec2::ZERO));
+                }
+            }
+        }
+    }
+
+    /// Whether a stored `distance` at `p` has the wrong sign, further from the edge than the bound
+    /// on the error.
+    fn is_wrong(&self, p: Point, distance: f64) -> bool {
+        if (distance > 0.0) == self.placed.region.contains(p) {
+            return false;
+        }
+        let bound = self.candidate.error_px / self.candidate.px_per_step;
+        let cell = self.cell_at(p).unwrap_or(u32::MAX);
+        let mut lines = self.cells.edges_near(cell).flat_map(|edge| edge.lines());
+        lines.all(|line| line_line_distance(line, Line::new(p, p)) > bound)
+    }
+
+    /// Steps from the edge at `p`, where the field says `distance`, to where it changes sign: inwards
+    /// if it says outside, else outwards. Beyond the middle of the shape, or of the gap beside it,
+    /// the next edge answers; where nothing changes before, the two have met there.
+    fn displacement(&self, p: Point, distance: f64, inwards: Vec2) -> f64 {
+        let grown = distance > 0.0;
+        let along = if grown { -inwards } else { inwards };
+        let spans = (1..=WALK_STRIDES)
+            .map(|k| WALK_REACH_STEPS * (f64::from(k) / f64::from(WALK_STRIDES)).powi(2));
+        let next_edge = |s: f64| self.placed.region.contains(p + s * along) == grown;
+        let next = spans.clone().find(|&s| next_edge(s));
+        let most = next.map_or(WALK_REACH_STEPS, |s| 0.5 * s);
+        let changes = |s: f64| {
+            self.distance(p + s * along)
+                .is_some_and(|d| (d > 0.0) != grown)
+        };
+        let found = spans.take_while(|&s| s < most).find(|&s| changes(s));
+        found.unwrap_or(most)
+    }
+
+    /// What most of the errors are near to.
+    fn cause(&self, errors: &[(Point, Vec2)]) -> Finding {
+        let cusps = cusps(&self.placed.outline);
+        let near_cusp = |p: Point| cusps.iter().any(|c| (*c - p).hypot() < CUSP_REACH_STEPS);
+        let (mut at_cusps, mut thin) = (0, 0);
+        let every = errors.len().div_ceil(MAX_CAUSES).max(1);
+        let asked = errors.iter().step_by(every);
+        for &(p, normal) in asked.clone() {
+            if near_cusp(p) {
+                at_cusps += 1;
+            } else if self.is_thin(p, normal) {
+                thin += 1;
+            }
+        }
+        match asked.len() {
+            0 => Finding::None,
+            all if 2 * at_cusps >= all && at_cusps >= thin => Finding::Cusp,
+            all if 2 * (thin + at_cusps) >= all => Finding::ThinFeature,
+            _ => Finding::Displaced,
+        }
+    }
+
+    /// Whether the shape, or the gap beside it, ends within [`THIN_STEPS`] of the edge at `p`.
+    fn is_thin(&self, p: Point, normal: Vec2) -> bool {
+        [normal, -normal].into_iter().any(|outwards| {
+            let at = |steps: f64| self.placed.region.contains(p + steps * outwards);
+            at(0.05) != at(THIN_STEPS)
+        })
+    }
+
+    /// The cell at `p`; `None` beside the canvas.
+    fn cell_at(&self, p: Point) -> Option<u32> {
+        let lattice = &self.candidate.lattice;
+        if !lattice.canvas.contains(p) {
+            return None;
+        }
+        let [column, row] = [p.x, p.y].map(|v| floor_index(v / lattice.cell_steps()));
+        let cell = row * lattice.grid.size_cells[0] as usize + column;
+        u32::try_from(cell).ok()
+    }
+
+    /// The stored distance at `p` in steps, positive inside, as evaluators interpolate it; `None`
+    /// beside the canvas and where the shape has no tile.
+    fn distance(&self, p: Point) -> Option<f64> {
+        let lattice = &self.candidate.lattice;
+        let cell = self.cell_at(p)?;
+        let tile = &self.tiles[self.cells.listed.binary_search(&cell).ok()?];
+        let n = lattice.cell_steps();
+        let [column, row] = [p.x / n, p.y / n].map(floor_index);
+        let side = lattice.grid.texels_per_cell as usize + 1;
+        #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
+        let q = [p.x - column as f64 * n, p.y - row as f64 * n];
+        let [x, y] = q.map(|v| floor_index(v).min(side - 2));
+        #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
+        let [fx, fy] = [q[0] - x as f64, q[1] - y as f64];
+        let channel = |i: usize| {
+            let texel = |x: usize, y: usize| f64::from(tile[4 * (y * side + x) + i]);
+            let row = |y: usize| texel(x, y) * (1.0 - fx) + texel(x + 1, y) * fx;
+            row(y) * (1.0 - fy) + row(y + 1) * fy
+        };
+        let [r, g, b] = [0, 1, 2].map(channel);
+        let median = r.min(g).max(r.max(g).min(b));
+        Some((median / 255.0 - 0.5) * self.candidate.scales.range)
+    }
+}
+
+/// Points evenly spread along an outline, which is followed within `tolerance`, with unit normals.
+fn probes(outline: &BezPath, tolerance: f64) -> Vec<(Point, Vec2)> {
+    let contours = flatten(outline, tolerance);
+    let lines = || {
+        let windows = contours.iter().flat_map(|contour| contour.windows(2));
+        windows.map(|ends| Line::new(ends[0], ends[1]))
+    };
+    let whole: f64 = lines().map(|line| (line.p1 - line.p0).hypot()).sum();
+    let spacing = PROBE_STEPS.max(whole / MAX_PROBES);
+    let mut probes = Vec::new();
+    // Half a spacing before the first.
+    let mut at = 0.5 * spacing;
+    for line in lines() {
+        let along = line.p1 - line.p0;
+        let length = along.hypot();
+        let normal = Vec2::new(-along.y, along.x) / length;
+        while at < length {
+            probes.push((line.p0 + along * (at / length), normal));
+            at += spacing;
+        }
+        at -= length;
+    }
+    probes
+}
+
+fn tangent(segment: &PathSeg, t: f64) -> Vec2 {
+    match segment {
+        PathSeg::Line(line) => line.p1 - line.p0,
+        PathSeg::Quad(quad) => quad.deriv().eval(t).to_vec2(),
+        PathSeg::Cubic(cubic) => cubic.deriv().eval(t).to_vec2(),
+    }
+}
+
+/// Corners of closed contours where the outline nearly turns back.
+fn cusps(outline: &BezPath) -> Vec<Point> {
+    let mut cusps = Vec::new();
+    let mut first: Option<PathSeg> = None;
+    let mut last: Option<PathSeg> = None;
+    let mut visit = |before: Option<PathSeg>, after: Option<PathSeg>| {
+        if let (Some(before), Some(after)) = (before, after)
+            && before.end() == after.start()
+        {
+            let [back, on] = [-tangent(&before, 0.99), tangent(&after, 0.01)].map(Vec2::normalize);
+            if back.dot(on) > CUSP_COSINE {
+                cusps.push(after.start());
+            }
+        }
+    };
+    for segment in outline.segments() {
+        let continues = last.is_some_and(|last| last.end() == segment.start());
+        if continues {
+            visit(last, Some(segment));
+        } else {
+            visit(last, first);
+            first = Some(segment);
+        }
+        last = Some(segment);
+    }
+    visit(last, first);
+    cusps
+}

@@ -1,0 +1,144 @@
+//! What is drawn, placed on the lattice of MSDF texels.
+
+use kurbo::{BezPath, Rect, Shape as _};
+use rayon::prelude::*;
+
+use crate::{
+    coverage::{
+        grid::Lattice,
+        verdict::{Coverage, Verdict},
+    },
+    drawing::{Drawing, FillRule, Item, Paint},
+    geometry::{
+        Region,
+        prepare::{Note, Prepared, clean, prepare},
+    },
+    number::floor_index,
+};
+
+/// One item in lattice steps. Its index is its place in the painter's order.
+#[derive(Clone, Debug)]
+pub(crate) struct Placed {
+    /// Closed contours.
+    pub(crate) outline: BezPath,
+    /// Inside test of the outline.
+    pub(crate) region: Region,
+    /// How the outline decides inside.
+    pub(crate) rule: FillRule,
+    /// Shape or patch.
+    pub(crate) kind: PlacedKind,
+}
+
+/// What covers a [`Placed`] outline.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum PlacedKind {
+    /// A paint.
+    Shape {
+        /// The paint, in canvas space.
+        paint: Paint,
+        /// What preparation did.
+        note: Note,
+        /// What it becomes.
+        verdict: Verdict,
+    },
+    /// A raster image in a rectangle.
+    Patch,
+    /// An outline that groups are clipped to.
+    Clip,
+}
+
+impl Placed {
+    /// An outline in lattice steps.
+    pub(crate) fn new(outline: BezPath, rule: FillRule, kind: PlacedKind) -> Self {
+        Self {
+            region: Region::new(&outline, rule),
+            outline,
+            rule,
+            kind,
+        }
+    }
+
+    /// Whether it is geometry that shows.
+    pub(crate) fn is_shape(&self) -> bool {
+        matches!(self.kind, PlacedKind::Shape { .. })
+    }
+
+    /// Whether it is to be curve records.
+    pub(crate) fn is_curves(&self) -> bool {
+        match &self.kind {
+            PlacedKind::Shape { verdict, .. } => verdict.coverage == Coverage::Curves,
+            PlacedKind::Clip => true,
+            PlacedKind::Patch => false,
+        }
+    }
+
+    /// Longer side in texels.
+    pub(crate) fn size_texels(&self) -> u32 {
+        let bounds = self.bounds();
+        let size = bounds.width().max(bounds.height()).ceil();
+        u32::try_from(floor_index(size)).unwrap_or(u32::MAX)
+    }
+
+    /// Box in steps.
+    pub(crate) fn bounds(&self) -> Rect {
+        self.region.bounds()
+    }
+}
+
+/// Prepares and places every item of `drawing`.
+pub(crate) fn place(drawing: &Drawing, lattice: &Lattice, verdicts: &[Verdict]) -> Vec<Placed> {
+    let longer = drawing.longer_side();
+    let items = drawing.items.par_iter().zip(verdicts);
+    items
+        .map(|(item, &verdict)| place_item(item, lattice, longer, verdict))
+        .collect()
+}
+
+/// A prepared outline by itself, for judging.
+pub(crate) fn place_prepared(prepared: &Prepared, lattice: &Lattice) -> Placed {
+    let kind = PlacedKind::Shape {
+        paint: Paint::BLACK,
+        note: prepared.note,
+        verdict: Verdict::forced(Coverage::Msdf),
+    };
+    let outline = lattice.lattice_from_canvas * &prepared.outline;
+    Placed::new(outline, prepared.rule, kind)
+}
+
+/// Prepares and places one item of a drawing whose longer side is `canvas_longer` units.
+pub(crate) fn place_item(
+    item: &Item,
+    lattice: &Lattice,
+    canvas_longer: f64,
+    verdict: Verdict,
+) -> Placed {
+    match item {
+        Item::Shape(shape) => {
+            let prepared = match verdict.coverage {
+                Coverage::Msdf => prepare(shape, canvas_longer),
+                // Windings take care of overlaps, and an edge that two shapes share must stay
+                // the same in both.
+                Coverage::Curves => Prepared {
+                    outline: clean(&shape.outline, canvas_longer),
+                    rule: shape.fill_rule,
+                    note: Note::AsDrawn,
+                },
+            };
+            let kind = PlacedKind::Shape {
+                paint: shape.paint.clone(),
+                note: prepared.note,
+                verdict,
+            };
+            let outline = lattice.lattice_from_canvas * prepared.outline;
+            Placed::new(outline, prepared.rule, kind)
+        }
+        Item::Clip(clip) => {
+            let outline = lattice.lattice_from_canvas * clean(&clip.outline, canvas_longer);
+            Placed::new(outline, clip.rule, PlacedKind::Clip)
+        }
+        Item::Patch(patch) => {
+            let outline = lattice.lattice_from_canvas * patch.rect.to_path(0.1);
+            Placed::new(outline, FillRule::NonZero, PlacedKind::Patch)
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! Strokes as filled outlines: caps, joins, miter limits and dashes (SVG 2 sec. 13.5).
+
+mod arcs;
+
+use kurbo::{Affine, BezPath, Cap, Join, PathEl, Point, StrokeOpts, Vec2};
+
+/// Dashes of one path; more are drawn as a continuous line. Such dashes are far below a pixel at
+/// any zoom that matters, or mean harm.
+const MAX_DASHES: f64 = 100_000.0;
+/// Length given to what SVG calls zero-length but kurbo would skip: dots drawn by caps. In
+/// stroke widths.
+const DOT_LENGTH: f64 = 1e-3;
+/// Units of the canvas' longer side while a stroke is expanded. kurbo's dashing is exact to 1e-6
+/// units, so lengths must be neither tiny nor huge.
+const WORK_UNITS: f64 = 1024.0;
+/// Largest distance between an expanded stroke and the true one, in pixels at maximum zoom.
+const TOLERANCE_PX: f64 = 0.1;
+
+/// A stroke in the path's own space.
+#[derive(Clone, Debug)]
+pub(crate) struct StrokeStyle {
+    /// Full width.
+    pub(crate) width: f64,
+    /// Line cap.
+    pub(crate) cap: Cap,
+    /// Line join.
+    pub(crate) join: Join,
+    /// Miter limit as in SVG: miter length over stroke width.
+    pub(crate) miter_limit: f64,
+    /// Alternating on and off lengths, empty for a continuous line.
+    pub(crate) dashes: Vec<f64>,
+    /// Where in the dashes the line begins.
+    pub(crate) dash_offset: f64,
+}
+
+/// An expanded stroke, to be filled by the nonzero rule.
+#[derive(Debug)]
+pub(crate) struct Expanded {
+    /// In canvas space.
+    pub(crate) outline: BezPath,
+    /// 1, or the share of the line that dashes cover when they were too many to draw.
+    pub(crate) opacity: f32,
+}
+
+/// How finely strokes are expanded.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StrokeQuality {
+    /// Longer side of the canvas in user units.
+    pub(crate) canvas_longer_side: f64,
+    /// Pixels along that side at the largest zoom for which the outline must be right.
+    pub(crate) longer_side_px: f64,
+}
+
+/// Expands `path` in its own space and brings the outline to the canvas, so that a skewed or
+/// unevenly scaled stroke comes out skewed as SVG wants.
+///
+/// `None` when nothing finite comes out.
+pub(crate) fn expand(
+    path: &BezPath,
+    style: &StrokeStyle,
+    canvas_from_path: Affine,
+    quality: StrokeQuality,
+) -> Option<Expanded> {
+    let scale = largest_scale(canvas_from_path) * WORK_UNITS / quality.canvas_longer_side;
+    if !(scale.is_finite() && scale > 0.0) {
+        return None;
+    }
+    let work_from_path = Affine::scale(scale);
+    let style = style.scaled(scale);
+    let tolerance = TOLERANCE_PX * WORK_UNITS / quality.longer_side_px;
+    let mut line = with_dots(&(work_from_path * path), &style);
+    if !line.is_finite() || line.elements().is_empty() {
+        return None;
+    }
+    let mut opacity = 1.0;
+    if let Some(dashes) = style.drawable_dashes() {
+        if dash_count(&line, &dashes, tolerance) <= MAX_DASHES {
+            line = kurbo::dash(line.iter(), style.dash_offset, &dashes).collect();
+        } else {
+            opacity = duty(&dashes);
+        }
+    }
+    let options = StrokeOpts::default();
+    let mut outline = kurbo::stroke(line.iter(), &style.kurbo(), &options, tolerance);
+    if style.is_round() {
+        outline = arcs::refine(&outline, &line, 0.5 * style.width, tolerance);
+    }
+    let outline = canvas_from_path * work_from_path.inverse() * outline;
+    outline.is_finite().then_some(Expanded { outline, opacity })
+}
+
+/// The larger singular value of the linear part.
+fn largest_scale(transform: Affine) -> f64 {
+    let [a, b, c, d, _, _] = transform.as_coeffs();
+    let sum = a * a + b * b + c * c + d * d;
+    let determinant = a * d - b * c;
+    let root = (sum * sum - 4.0 * determinant * determinant)
+        .max(0.0)
+        .sqrt();
+    ((sum + root) / 2.0).sqrt()
+}
+
+impl StrokeStyle {
+    fn scaled(&self, scale: f64) -> Self {
+        Self {
+            width: self.width * scale,
+            dashes: self.dashes.iter().map(|length| length * scale).collect(),
+            dash_offset: self.dash_offset * scale,
+            ..self.clone()
+        }
+    }
+
+    fn is_round(&self) -> bool {
+        self.cap == Cap::Round || self.join == Join::Round
+    }
+
+    /// kurbo's limit applies to half the miter length over half the width: the same ratio.
+    fn kurbo(&self) -> kurbo::Stroke {
+        kurbo::Stroke::new(self.width)
+            .with_caps(self.cap)
+            .with_join(self.join)
+            .with_miter_limit(self.miter_limit)
+    }
+
+    /// An even number of lengths where every visible dash has some length, or `None` when the line is
+    /// continuous.
+    fn drawable_dashes(&self) -> Option<Vec<f64>> {
+        let valid = self.dashes.iter().all(|d| d.is_finite() && *d >= 0.0);
+        if !valid || self.dashes.iter().sum::<f64>() <= 0.0 {
+            return None;
+        }
+        let mut dashes = self.dashes.clone();
+        if dashes.len() % 2 == 1 {
+            dashes.extend_from_within(..);
+        }
+        // Dashes of no length show as dots if there are caps; kurbo needs a direction for them.
+        for pair in dashes.chunks_exact_mut(2) {
+            if pair[0] <= 0.0 && self.cap != Cap::Butt {
+                pair[0] = (DOT_LENGTH * self.width).min(pair[1] / 2.0);
+                pair[1] -= pair[0];
+            }
+        }
+        Some(dashes)
+    }
+}
+
+fn dash_count(line: &BezPath, dashes: &[f64], tolerance: f64) -> f64 {
+    let length: f64 = line
+        .segments()
+        .map(|s| kurbo::ParamCurveArclen::arclen(&s, tolerance))
+        .sum();
+    length / dashes.iter().sum::<f64>() * (dashes.len() as f64 / 2.0)
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a ratio in [0, 1]")]
+fn duty(dashes: &[f64]) -> f32 {
+    let on: f64 = dashes.iter().step_by(2).sum();
+    (on / dashes.iter().sum::<f64>()) as f32
+}
+
+/// Gives zero-length subpaths a hair of length along x, so that their caps are drawn
+/// (SVG 2 sec. 13.5.4); without caps they vanish.
+fn with_dots(line: &BezPath, style: &StrokeStyle) -> BezPath {
+    let mut out = BezPath::new();
+    for subpath in subpaths(line) {
+        let Some(PathEl::MoveTo(start)) = subpath.first().copied() else {
+            continue;
+        };
+        let drawn = &subpath[1..];
+        if drawn.is_empty() {
+            continue;
+        }
+        if drawn.iter().any(|el| leaves(el, start)) {
+            out.extend(subpath.iter().copied());
+        } else if style.cap != Cap::Butt {
+            out.move_to(start);
+            out.line_to(start + Vec2::new(DOT_LENGTH * style.width, 0.0));
+        }
+    }
+    out
+}
+
+fn leaves(el: &PathEl, start: Point) -> bool {
+    match *el {
+        PathEl::MoveTo(p) | PathEl::LineTo(p) => p != start,
+        PathEl::QuadTo(p1, p) => p1 != start || p != start,
+        PathEl::CurveTo(p1, p2, p) => p1 != start || p2 != start || p != start,
+        PathEl::ClosePath => false,
+    }
+}
+
+/// Splits before every move; a close followed by drawing starts a subpath at the same point.
+fn subpaths(line: &BezPath) -> Vec<Vec<PathEl>> {
+    let mut all: Vec<Vec<PathEl>> = Vec::new();
+    let mut start = Point::ORIGIN;
+    let mut closed = true;
+    for &el in line.elements() {
+        match el {
+            PathEl::MoveTo(p) => {
+                start = p;
+                all.push(vec![el]);
+            }
+            _ if closed => all.push(vec![PathEl::MoveTo(start), el]),
+            _ => all
+                .last_mut()
+                .into_iter()
+                .for_each(|subpath| subpath.push(el)),
+        }
+        closed = el == PathEl::ClosePath;
+    }
+    all
+}

@@ -1,0 +1,187 @@
+//! Mip chains in linear light, premultiplied.
+
+use rayon::prelude::*;
+use vtex_format::Image;
+
+use crate::drawing::color;
+
+/// Texels in linear light, premultiplied by alpha.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct LinearImage {
+    /// Columns and rows, at least 1 each.
+    pub(crate) size: [u32; 2],
+    /// Row by row from the top.
+    pub(crate) texels: Vec<[f32; 4]>,
+}
+
+impl LinearImage {
+    /// The area average at another, not larger size. Weights are exact for any ratio, so odd
+    /// sides lose no row and the chain never drifts.
+    pub(crate) fn reduced(&self, size: [u32; 2]) -> Self {
+        let columns = spans(self.size[0], size[0]);
+        let rows = spans(self.size[1], size[1]);
+        let width = self.size[0] as usize;
+        let texels = rows
+            .par_iter()
+            .flat_map_iter(|row| {
+                let column_sums = row_average(&self.texels, width, row);
+                columns
+                    .iter()
+                    .map(move |column| average(&column_sums, column))
+            })
+            .collect();
+        Self { size, texels }
+    }
+
+    /// Mirrors it along x, along y.
+    pub(crate) fn mirror(&mut self, [along_x, along_y]: [bool; 2]) {
+        let width = self.size[0] as usize;
+        if along_x {
+            self.texels.chunks_exact_mut(width).for_each(<[_]>::reverse);
+        }
+        if along_y {
+            // All texels backwards, each row then forwards again.
+            self.texels.reverse();
+            self.texels.chunks_exact_mut(width).for_each(<[_]>::reverse);
+        }
+    }
+}
+
+/// Where one texel's extent lies among the finer ones along an axis.
+#[derive(Debug)]
+pub(crate) struct Span {
+    /// The first finer texel it touches.
+    pub(crate) first: usize,
+    /// Share that each finer texel has in it; their sum is 1, or less at the rim of an image.
+    pub(crate) weights: Vec<f32>,
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "weights are shares in [0, 1]"
+)]
+fn spans(fine: u32, coarse: u32) -> Vec<Span> {
+    let (fine, coarse) = (u64::from(fine), u64::from(coarse));
+    (0..coarse)
+        .map(|i| {
+            // Extents in units of 1 / coarse of a finer texel: all integers.
+            let (start, end) = (i * fine, (i + 1) * fine);
+            let (first, last) = (start / coarse, (end - 1) / coarse);
+            let weights = (first..=last).map(|k| {
+                let overlap = end.min((k + 1) * coarse) - start.max(k * coarse);
+                (overlap as f64 / fine as f64) as f32
+            });
+            Span {
+                first: usize::try_from(first).unwrap_or(usize::MAX),
+                weights: weights.collect(),
+            }
+        })
+        .collect()
+}
+
+/// Weighted sum of whole rows of `width` texels.
+pub(crate) fn row_average(texels: &[[f32; 4]], width: usize, row: &Span) -> Vec<[f32; 4]> {
+    let mut sums = vec![[0.0; 4]; width];
+    for (texels, &weight) in texels.chunks_exact(width).skip(row.first).zip(&row.weights) {
+        for (sum, texel) in sums.iter_mut().zip(texels) {
+            add(sum, texel, weight);
+        }
+    }
+    sums
+}
+
+/// Weighted sum of the texels of one row.
+pub(crate) fn average(texels: &[[f32; 4]], span: &Span) -> [f32; 4] {
+    let mut sum = [0.0; 4];
+    for (texel, &weight) in texels[span.first..].iter().zip(&span.weights) {
+        add(&mut sum, texel, weight);
+    }
+    sum
+}
+
+fn add(sum: &mut [f32; 4], texel: &[f32; 4], weight: f32) {
+    for (s, t) in sum.iter_mut().zip(texel) {
+        *s += weight * t;
+    }
+}
+
+/// A stored image with its whole chain. Each level is made from the unrounded one above it.
+pub(crate) fn chain(level0: LinearImage, rect_uv: [f32; 4]) -> Image {
+    let size = level0.size;
+    let mut mips = vec![stored(&level0)];
+    let mut level = level0;
+    for k in 1..Image::level_count(size) {
+        level = level.reduced(Image::level_size(size, k));
+        mips.push(stored(&level));
+    }
+    Image {
+        rect_uv,
+        size,
+        mips,
+    }
+}
+
+fn stored(level: &LinearImage) -> Vec<u8> {
+    level
+        .texels
+        .par_iter()
+        .flat_map_iter(|&texel| color::stored_from_linear(texel))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn image(size: [u32; 2], texel: impl Fn(u32, u32) -> [f32; 4]) -> LinearImage {
+        let texels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
+        LinearImage {
+            size,
+            texels: texels.map(|(x, y)| texel(x, y)).collect(),
+        }
+    }
+
+    #[test]
+    fn a_constant_stays_constant_at_any_size() {
+        let texel = [0.1, 0.2, 0.05, 0.5];
+        for size in [[1, 1], [7, 5], [13, 1], [640, 3]] {
+            let chain = chain(image(size, |_, _| texel), [0.0, 0.0, 1.0, 1.0]);
+            assert_eq!(chain.mips.len(), Image::level_count(size) as usize);
+            for (k, level) in (0..).zip(&chain.mips) {
+                let [w, h] = Image::level_size(size, k);
+                assert_eq!(level.len(), 4 * w as usize * h as usize);
+                let expected = color::stored_from_linear(texel);
+                assert!(
+                    level.chunks_exact(4).all(|t| t == expected),
+                    "{size:?} level {k}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn odd_sides_keep_the_mean() {
+        let ramp = image([7, 5], |x, y| [(x * y) as f32 / 24.0, 0.0, 0.0, 1.0]);
+        let mean = ramp.texels.iter().map(|t| t[0]).sum::<f32>() / 35.0;
+        let half = ramp.reduced([3, 2]);
+        let last = half.reduced([1, 1]);
+        assert!((last.texels[0][0] - mean).abs() < 1e-6);
+    }
+
+    #[test]
+    fn an_edge_to_transparent_keeps_its_colour() {
+        // Half-transparent red beside opaque green beside nothing: no darker hue may appear.
+        let red = color::decode(0.9);
+        let level0 = image([4, 4], |x, _| match x {
+            0 | 1 => [0.5 * red, 0.0, 0.0, 0.5],
+            2 => [0.0, 1.0, 0.0, 1.0],
+            _ => [0.0; 4],
+        });
+        let [r, g, b, a] = level0.reduced([1, 1]).texels[0];
+        assert!((a - 0.5).abs() < 1e-6, "{a}");
+        // Un-premultiplied: half the covered area is red, half green.
+        assert!((r / a - 0.5 * red).abs() < 1e-6 && (g / a - 0.5).abs() < 1e-6 && b == 0.0);
+        let right = level0.reduced([2, 2]).texels[1];
+        assert_eq!(right, [0.0, 0.5, 0.0, 0.5], "green fades without darkening");
+    }
+}

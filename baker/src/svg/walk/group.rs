@@ -1,0 +1,225 @@
+//! Groups: what clips, masks, opacity and blending make of their children.
+
+use kurbo::Shape as _;
+use usvg::{BlendMode, Group, MaskType, Node};
+use vtex_format::{self as format, MaskKind};
+
+use crate::{
+    drawing::{
+        FillRule,
+        tree::{self, Clip, Mask, Scope},
+    },
+    svg::{
+        path::affine,
+        walk::{Place, Walker, recolor::Recolor},
+    },
+};
+
+/// What is done to a group as a whole.
+#[derive(Debug)]
+pub(super) struct Effects {
+    pub(super) clips: Vec<Clip>,
+    pub(super) masks: Vec<Mask>,
+    pub(super) opacity: f32,
+    pub(super) blend: format::BlendMode,
+    pub(super) isolated: bool,
+}
+
+impl Default for Effects {
+    fn default() -> Self {
+        Self {
+            clips: Vec::new(),
+            masks: Vec::new(),
+            opacity: 1.0,
+            blend: format::BlendMode::Normal,
+            isolated: false,
+        }
+    }
+}
+
+impl<'a> Walker<'a, '_> {
+    pub(super) fn group(&mut self, node: &'a Node, group: &'a Group, place: Place<'a>) {
+        let mut place = place;
+        if !group.filters().is_empty() {
+            let recolor = Recolor::of(group).filter(|_| place.recolor.is_none());
+            if recolor.is_none() {
+                return self.filtered(node, group, place);
+            }
+            place.recolor = recolor;
+        }
+        let folds = place.opacity < 1.0 || group.opacity() == usvg::Opacity::ONE;
+        let folds = folds || self.folds(group);
+        let own = group.opacity().get();
+        let inner = Place {
+            canvas_from_user: place.canvas_from_user * affine(group.transform()),
+            opacity: place.opacity * if folds { own } else { 1.0 },
+            ..place
+        };
+        let effects = Effects {
+            opacity: if folds { 1.0 } else { own },
+            blend: blend_mode(group.blend_mode()),
+            isolated: blends(group) || group.should_isolate() && holds_open_blend(group),
+            ..Effects::default()
+        };
+        let grouped = effects.isolated || effects.opacity < 1.0 || group.mask().is_some();
+        let clips = group.clip_path().map_or(0, clip_depth) + u32::from(group.mask().is_some());
+        let Some(inner) = inner.deeper(clips + u32::from(grouped)) else {
+            return self.raster(node, place, "nesting");
+        };
+        let first = self.next_item();
+        let mut effects = effects;
+        if self.clips_and_masks(group, inner, &mut effects).is_some() {
+            self.scope(first, effects, |walker| walker.children(group, inner));
+        }
+    }
+
+    /// A group that a filter makes pixels of; blending is not the filter's.
+    fn filtered(&mut self, node: &'a Node, group: &'a Group, place: Place<'a>) {
+        if !blends(group) {
+            return self.raster(node, place, "filter");
+        }
+        let effects = Effects {
+            blend: blend_mode(group.blend_mode()),
+            isolated: true,
+            ..Effects::default()
+        };
+        self.scope(self.next_item(), effects, |walker| {
+            walker.raster(node, place, "filter");
+        });
+    }
+
+    /// A node of what `walk` adds; its items begin with `first`, those of the effects among them.
+    pub(super) fn scope(&mut self, first: u32, effects: Effects, walk: impl FnOnce(&mut Self)) {
+        let children = self.collected(walk);
+        let scope = Scope {
+            items: [first, self.next_item()],
+            clips: effects.clips,
+            masks: effects.masks,
+            opacity: effects.opacity,
+            blend: effects.blend,
+            isolated: effects.isolated,
+            children,
+        };
+        if scope.clips.is_empty() && !scope.is_group() {
+            self.nodes.extend(scope.children);
+        } else if !scope.children.is_empty() {
+            self.nodes.push(tree::Node::Scope(Box::new(scope)));
+        }
+    }
+
+    /// Clips and masks of a group; `None` where they let nothing show.
+    fn clips_and_masks(
+        &mut self,
+        group: &'a Group,
+        place: Place<'a>,
+        effects: &mut Effects,
+    ) -> Option<()> {
+        if let Some(clip) = group.clip_path() {
+            effects.clips = self.clips(clip, place.canvas_from_user)?;
+        }
+        if let Some(mask) = group.mask() {
+            self.mask(mask, place, effects)?;
+        }
+        Some(())
+    }
+
+    /// A mask and the masks on it, of which each fades the group by itself.
+    fn mask(
+        &mut self,
+        mask: &'a usvg::Mask,
+        place: Place<'a>,
+        effects: &mut Effects,
+    ) -> Option<()> {
+        if let Some(outer) = mask.mask() {
+            self.mask(outer, place, effects)?;
+        }
+        let [x0, y0, x1, y1] = [
+            mask.rect().left(),
+            mask.rect().top(),
+            mask.rect().right(),
+            mask.rect().bottom(),
+        ]
+        .map(f64::from);
+        let area = kurbo::Rect::new(x0, y0, x1, y1).to_path(0.1);
+        let outline = place.canvas_from_user * area;
+        effects
+            .clips
+            .extend(self.clip_to(outline, FillRule::NonZero)?);
+        let first = self.next_item();
+        let place = Place {
+            opacity: 1.0,
+            recolor: None,
+            ..place
+        };
+        let children = self.collected(|walker| walker.children(mask.root(), place));
+        if children.is_empty() {
+            return None;
+        }
+        effects.masks.push(Mask {
+            kind: match mask.kind() {
+                MaskType::Luminance => MaskKind::Luminance,
+                MaskType::Alpha => MaskKind::Alpha,
+            },
+            items: [first, self.next_item()],
+            children,
+        });
+        Some(())
+    }
+
+    /// The nodes that `walk` adds, apart from those of the group it happens in.
+    pub(super) fn collected(&mut self, walk: impl FnOnce(&mut Self)) -> Vec<tree::Node> {
+        let outer = std::mem::take(&mut self.nodes);
+        walk(self);
+        std::mem::replace(&mut self.nodes, outer)
+    }
+}
+
+/// Jumps that wait at once while the clip is tested and its group drawn: one past the group for
+/// each clip that holds another, one past the rest of a union.
+fn clip_depth(clip: &usvg::ClipPath) -> u32 {
+    let outer = clip.clip_path().map_or(0, clip_depth);
+    2 + outer + nested_clip_depth(clip.root())
+}
+
+fn nested_clip_depth(group: &Group) -> u32 {
+    let depth = |node: &Node| match node {
+        Node::Group(inner) => inner.clip_path().map_or(0, clip_depth) + nested_clip_depth(inner),
+        _ => 0,
+    };
+    group.children().iter().map(depth).max().unwrap_or(0)
+}
+
+/// Whether a group's blend mode sees what lies behind it.
+fn blends(group: &Group) -> bool {
+    group.blend_mode() != BlendMode::Normal
+}
+
+/// Whether something in the group blends with what is behind it inside the group.
+pub(super) fn holds_open_blend(group: &Group) -> bool {
+    group.children().iter().any(|node| match node {
+        Node::Group(child) => blends(child) || (!child.should_isolate() && holds_open_blend(child)),
+        _ => false,
+    })
+}
+
+fn blend_mode(mode: BlendMode) -> format::BlendMode {
+    match mode {
+        BlendMode::Normal => format::BlendMode::Normal,
+        BlendMode::Multiply => format::BlendMode::Multiply,
+        BlendMode::Screen => format::BlendMode::Screen,
+        BlendMode::Overlay => format::BlendMode::Overlay,
+        BlendMode::Darken => format::BlendMode::Darken,
+        BlendMode::Lighten => format::BlendMode::Lighten,
+        BlendMode::ColorDodge => format::BlendMode::ColorDodge,
+        BlendMode::ColorBurn => format::BlendMode::ColorBurn,
+        BlendMode::HardLight => format::BlendMode::HardLight,
+        BlendMode::SoftLight => format::BlendMode::SoftLight,
+        BlendMode::Difference => format::BlendMode::Difference,
+        BlendMode::Exclusion => format::BlendMode::Exclusion,
+        BlendMode::Hue => format::BlendMode::Hue,
+        BlendMode::Saturation => format::BlendMode::Saturation,
+        BlendMode::Color => format::BlendMode::Color,
+        BlendMode::Luminosity => format::BlendMode::Luminosity,
+        BlendMode::PlusLighter => format::BlendMode::PlusLighter,
+    }
+}
