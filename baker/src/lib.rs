@@ -115,3 +115,8 @@ fn draw(
         warnings: warnings.into_list(),
     })
 }
+
+/// The examples of README.md, which run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
