@@ -42,3 +42,8 @@ pub use error::BakeError;
 pub use oracle::Painter;
 pub use pipeline::{bake, bake_observed};
 pub use svg::font_selector;
+
+/// The examples of README.md, which run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -62,6 +62,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![cfg_attr(
     not(any(test, all(feature = "encode", feature = "decode"))),
     expect(
@@ -123,3 +124,8 @@ pub use records::shape::{
 pub use serial::read::validate;
 #[cfg(feature = "encode")]
 pub use serial::write::Executor;
+
+/// The examples of README.md, which run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
