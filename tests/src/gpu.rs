@@ -6,28 +6,24 @@ use std::time::{Duration, Instant};
 use vtex_shaders::{BatchQuery, batch_dispatch};
 use wgpu::util::DeviceExt as _;
 
-/// Set to `off`, lets tests that need an adapter pass without one.
-const SWITCH: &str = "VTEX_GPU";
+/// What a test leaves out with `VTEX_GPU=off`.
+const UNTESTED: &str = "what runs on the GPU";
 
 /// The runtime's adapter, which all tests of a suite share, or `None` when they are switched off.
 ///
 /// # Panics
 /// When there is no adapter; later, on a validation error: no test is to pass over one.
-#[expect(clippy::print_stdout, reason = "a skipped test has to say so")]
+#[track_caller]
 pub fn shared() -> Option<&'static vtex_runtime::Gpu> {
-    static GPU: OnceLock<Option<vtex_runtime::Gpu>> = OnceLock::new();
-    GPU.get_or_init(|| {
-        if std::env::var(SWITCH).is_ok_and(|value| value == "off") {
-            println!("skipped: {SWITCH}=off");
-            return None;
-        }
+    static GPU: OnceLock<vtex_runtime::Gpu> = OnceLock::new();
+    let open = || {
         let gpu = vtex_runtime::Gpu::headless();
         let gpu = gpu.expect("an adapter; VTEX_GPU=off skips these tests");
         gpu.device
             .on_uncaptured_error(Arc::new(|error| panic!("{error}")));
-        Some(gpu)
-    })
-    .as_ref()
+        gpu
+    };
+    vtex_testing::gpu(UNTESTED).then(|| GPU.get_or_init(open))
 }
 
 /// A device with core WebGPU's limits. Validation errors panic, which is wgpu's default.
@@ -46,8 +42,9 @@ impl Gpu {
     ///
     /// # Panics
     /// When there is no adapter, or it offers less than core WebGPU.
+    #[track_caller]
     pub fn open() -> Option<Self> {
-        if std::env::var(SWITCH).is_ok_and(|value| value == "off") {
+        if !vtex_testing::gpu(UNTESTED) {
             return None;
         }
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());

@@ -8,18 +8,17 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use rayon::prelude::*;
-use vtex::args::Filter;
-use vtex::picture::{Picture, View, fit_size};
-use vtex::preview::Shot;
-use vtex::reference::{Edges, Reference};
-use vtex::texture::canvas_options;
 use vtex_baker::{BakeConfig, Resources, bake};
 use vtex_format::{COVERAGE_IMAGE, EMBEDDED_SOURCE, VtexFile, Warning, WarningCode};
 use vtex_shaders::{cpu, pack};
+use vtex_testing::{Corpus, slow_only};
 use vtex_tests::fonts;
+use vtex_truth::picture::{Picture, Shot, View, fit_size};
+use vtex_truth::reference::{Edges, Reference};
+use vtex_truth::texture::{FilterMode, canvas_options};
 
 /// Pixels of the pictures' longer side.
 const LONGER_PX: u32 = 256;
@@ -61,26 +60,20 @@ const STACK_BYTES: usize = 64 << 20;
 
 #[test]
 fn differences_from_resvg_are_explained() {
-    if std::env::var_os("VTEX_SLOW").is_none_or(|value| value != "1") {
-        println!("not run: wants VTEX_SLOW=1");
+    let untested = "every file of the corpus against resvg";
+    if !slow_only(untested) {
         return;
     }
-    let root = corpus();
-    let mut files = Vec::new();
-    svg_files(&root, &mut files);
+    let Some(corpus) = Corpus::find(untested) else {
+        return;
+    };
+    let mut files = corpus.drawings();
     let wanted = std::env::var("VTEX_FILTER").unwrap_or_default();
     files.retain(|path| path.to_string_lossy().contains(&wanted));
-    if files.is_empty() {
-        println!("not run: no corpus");
-        return;
-    }
+    assert!(!files.is_empty(), "no path contains {wanted}");
     let pool = rayon::ThreadPoolBuilder::new().stack_size(STACK_BYTES);
     let look = |path: &PathBuf| {
-        let name = path
-            .strip_prefix(&root)
-            .unwrap_or(path)
-            .display()
-            .to_string();
+        let name = corpus.name(path);
         let found = look(&std::fs::read(path).unwrap());
         match (found, OFF.iter().find(|(end, _)| name.ends_with(end))) {
             (Err(_), Some(_)) => Ok(()),
@@ -102,26 +95,6 @@ fn differences_from_resvg_are_explained() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-fn corpus() -> PathBuf {
-    std::env::var_os("VTEX_CORPUS").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus"),
-        PathBuf::from,
-    )
-}
-
-fn svg_files(folder: &Path, found: &mut Vec<PathBuf>) {
-    let entries = std::fs::read_dir(folder).into_iter().flatten();
-    for path in entries.map(|entry| entry.unwrap().path()) {
-        let ends = |ends: &str| path.extension().is_some_and(|found| found == ends);
-        if path.is_dir() && !path.ends_with("hostile") {
-            svg_files(&path, found);
-        } else if ends("svg") || ends("svgz") {
-            found.push(path);
-        }
-    }
-    found.sort();
-}
-
 /// An error where the file does not bake or a difference has no explanation.
 fn look(svg: &[u8]) -> Result<(), String> {
     let resources = Resources {
@@ -137,7 +110,7 @@ fn look(svg: &[u8]) -> Result<(), String> {
         size_px,
         spp: SPP,
     };
-    let words = pack(&file, &canvas_options(Filter::Point));
+    let words = pack(&file, &canvas_options(FilterMode::Point));
     let sampler = cpu::Sampler::new(&words);
     let ours = shot.shoot(|uv, _| sampler.sample(uv, [0.0; 4]));
     explain(&file, &differing(&truth.unwrap(), &ours))

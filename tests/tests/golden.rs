@@ -15,16 +15,13 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use libtest_mimic::{Arguments, Failed, Trial};
-use vtex::args::Filter;
-use vtex::metrics::difference;
-use vtex::picture::{Picture, View, fit_size};
-use vtex::preview::{Shot, hash};
-use vtex::reference::{Edges, Reference};
-use vtex::texture::{Shooter, canvas_options};
 use vtex_baker::{BakeConfig, Resources};
 use vtex_format::{Limits, VtexFile, validate};
 use vtex_runtime::{BatchQuery, Gpu};
 use vtex_shaders::cpu;
+use vtex_truth::picture::{Picture, Shot, View, difference, fit_size, hash};
+use vtex_truth::reference::{Edges, Reference};
+use vtex_truth::texture::{FilterMode, Shooter, canvas_options};
 
 /// Pixels of the longer side of all pictures.
 const LONGER_PX: u32 = 128;
@@ -173,7 +170,7 @@ impl Case {
     /// Point lookups without footprint, which never see the mips.
     fn cells(&self) -> Result<(), Failed> {
         let baked = self.baked()?;
-        let words = vtex_shaders::pack(&baked.file, &canvas_options(Filter::Point));
+        let words = vtex_shaders::pack(&baked.file, &canvas_options(FilterMode::Point));
         let sampler = cpu::Sampler::new(&words);
         let picture = shot(baked).shoot(|uv, _| sampler.sample(uv, [0.0; 4]));
         bounded(
@@ -186,7 +183,7 @@ impl Case {
     /// Lookups with their footprint, which at this size see mip 0 only.
     fn mips(&self) -> Result<(), Failed> {
         let baked = self.baked()?;
-        let words = vtex_shaders::pack(&baked.file, &canvas_options(Filter::Point));
+        let words = vtex_shaders::pack(&baked.file, &canvas_options(FilterMode::Point));
         let picture = Shooter::Cpu { words }.shoot(shot(baked))?;
         bounded(
             baked,
@@ -201,7 +198,7 @@ impl Case {
             return Ok(());
         };
         let baked = self.baked()?;
-        for filter in [Filter::Point, Filter::Footprint, Filter::Paper] {
+        for filter in [FilterMode::Point, FilterMode::Footprint, FilterMode::Paper] {
             let pack = canvas_options(filter);
             let Shooter::Gpu { sampler } = Shooter::on_gpu(gpu, &baked.file, pack)? else {
                 return Err("no batch sampler".into());
@@ -221,7 +218,7 @@ impl Case {
                         .any(|(a, b)| (a - b).is_nan() || (a - b).abs() > PARITY_TOLERANCE)
                 })
                 .collect();
-            let allowed = if filter == Filter::Point {
+            let allowed = if filter == FilterMode::Point {
                 PARITY_FLIPS
             } else {
                 0

@@ -1,43 +1,22 @@
-//! What closed issues promised, on real files. The corpus is no part of the project: its folder
-//! is named by `VTEX_CORPUS` and is `../shared/corpus` beside the workspace otherwise.
+//! What closed issues promised, on real files.
 
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use vtex::args::Filter;
-use vtex::comparison::{Comparison, Terms};
-use vtex::reference::{Edges, Reference};
-use vtex::texture::{Shooter, canvas_options};
 use vtex_baker::{BakeConfig, Resources};
 use vtex_format::{Limits, VtexFile, WarningCode, validate};
-
-/// The corpus, or `None` (said on stderr) when it is absent.
-fn corpus() -> Option<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus");
-    let folder = std::env::var_os("VTEX_CORPUS").map_or(beside, PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    #[expect(clippy::print_stderr, reason = "a test that did not run says so")]
-    {
-        eprintln!("no corpus at {}: not tested", folder.display());
-    }
-    None
-}
+use vtex_testing::Corpus;
+use vtex_truth::comparison::{Comparison, Terms};
+use vtex_truth::reference::{Edges, Reference};
+use vtex_truth::texture::{FilterMode, Shooter, canvas_options};
 
 /// Issue 2: all ten drawings of the kinds of \[SFG22\] Table 1 bake and are valid; those of solid
 /// fills and strokes alone reach 35 dB at 512 pixels.
 #[test]
 fn paper5_bakes_and_looks_right() {
-    let Some(folder) = corpus().map(|corpus| corpus.join("paper5")) else {
+    let Some(corpus) = Corpus::find("the drawings of the kinds of [SFG22]") else {
         return;
     };
-    let mut svgs: Vec<_> = std::fs::read_dir(&folder)
-        .expect("the corpus can be listed")
-        .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|path| path.extension().is_some_and(|ext| ext == "svg"))
-        .collect();
-    svgs.sort();
+    let svgs = corpus.svg_files(&["paper5"]);
     assert_eq!(svgs.len(), 10, "paper5 has ten drawings");
     let mut compared = 0;
     for path in &svgs {
@@ -76,10 +55,10 @@ fn psnr_at_1x(svg: &[u8], file: &VtexFile) -> f64 {
     let terms = Terms {
         longer_px: 512,
         spp: 16,
-        windows: vtex::windows::WINDOWS,
+        windows: vtex_truth::comparison::WINDOWS,
         mask: false,
     };
-    let words = vtex_shaders::pack(file, &canvas_options(Filter::Point));
+    let words = vtex_shaders::pack(file, &canvas_options(FilterMode::Point));
     let shooter = Shooter::Cpu { words };
     let report = Comparison::new(&reference, terms)
         .and_then(|comparison| comparison.measure(1.0, |shot| shooter.shoot(shot)))

@@ -17,6 +17,7 @@ use vtex_baker::{BakeConfig, Painter, Resources, bake};
 use vtex_format::VtexFile;
 use vtex_runtime::{BatchQuery, BatchSampler, FilterMode, Gpu, LoadOptions, Trust};
 use vtex_shaders::{PackOptions, cpu, pack};
+use vtex_testing::{Corpus, slow_only};
 use vtex_tests::random::Random;
 
 /// A lookup may fall on the other side of an edge that is this near, in units of the curve lattice:
@@ -195,13 +196,6 @@ fn compare(files: &[PathBuf], resources: &Resources, points: usize) -> (usize, u
     (solid, wrong, report)
 }
 
-fn corpus() -> PathBuf {
-    std::env::var_os("VTEX_CORPUS").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus"),
-        PathBuf::from,
-    )
-}
-
 /// The fonts of the tests, for every family a file asks for.
 fn resources() -> Resources {
     Resources {
@@ -222,12 +216,10 @@ fn own_drawings_look_as_the_painter_paints_them() {
 
 #[test]
 fn a_dozen_of_the_corpus_look_as_the_painter_paints_them() {
-    let mut files = Vec::new();
-    svg_files(&corpus(), &mut files);
-    if files.is_empty() {
-        println!("not run: no corpus");
+    let Some(corpus) = Corpus::find("lookups of a dozen real drawings") else {
         return;
-    }
+    };
+    let files = corpus.drawings();
     // Spread over all folders.
     let files: Vec<PathBuf> = files.iter().step_by(files.len() / 16).cloned().collect();
     let (solid, wrong, _) = compare(&files, &resources(), 20_000);
@@ -237,12 +229,14 @@ fn a_dozen_of_the_corpus_look_as_the_painter_paints_them() {
 
 #[test]
 fn the_solid_corpus_looks_as_the_painter_paints_it() {
-    if std::env::var_os("VTEX_SLOW").is_none_or(|value| value != "1") {
-        println!("not run: wants VTEX_SLOW=1");
+    let untested = "lookups of every solid drawing of the corpus";
+    if !slow_only(untested) {
         return;
     }
-    let mut files = Vec::new();
-    svg_files(&corpus(), &mut files);
+    let Some(corpus) = Corpus::find(untested) else {
+        return;
+    };
+    let mut files = corpus.drawings();
     let wanted = std::env::var("VTEX_FILTER").unwrap_or_default();
     files.retain(|path| path.to_string_lossy().contains(&wanted));
     let points = std::env::var("VTEX_POINTS").map_or(1_000_000, |text| text.parse().unwrap());

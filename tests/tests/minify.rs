@@ -6,13 +6,13 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use vtex::picture::{Picture, View};
-use vtex::reference::{Edges, Reference};
 use vtex_baker::{BakeConfig, Resources, bake};
 use vtex_format::VtexFile;
 use vtex_runtime::FilterMode;
 use vtex_shaders::{PackOptions, cpu, pack};
 use vtex_tests::random::Random;
+use vtex_truth::picture::{Picture, View};
+use vtex_truth::reference::{Edges, Reference};
 
 /// Texels along mip 0.
 const MIP0: u32 = 256;

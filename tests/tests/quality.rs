@@ -5,12 +5,12 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use vtex::comparison::{Comparison, Terms};
-use vtex::reference::{Edges, Reference};
 use vtex_baker::{BakeConfig, Resources, bake};
 use vtex_format::VtexFile;
 use vtex_runtime::FilterMode;
 use vtex_shaders::{PackOptions, cpu, pack};
+use vtex_truth::comparison::{Comparison, Terms};
+use vtex_truth::reference::{Edges, Reference};
 
 /// What four times the samples must gain at least, dB. Noise along edges gives 4.5.
 const GAIN_DB: f64 = 3.0;
@@ -32,7 +32,7 @@ fn psnr_db(reference: &Reference, file: &VtexFile, spp: u32, zoom: f64) -> f64 {
     let terms = Terms {
         longer_px: 128,
         spp,
-        windows: vtex::windows::WINDOWS,
+        windows: vtex_truth::comparison::WINDOWS,
         mask: false,
     };
     let comparison = Comparison::new(reference, terms).unwrap();
@@ -42,7 +42,8 @@ fn psnr_db(reference: &Reference, file: &VtexFile, spp: u32, zoom: f64) -> f64 {
     };
     let words = pack(file, &options);
     let sampler = cpu::Sampler::new(&words);
-    let shoot = |shot: vtex::preview::Shot| Ok(shot.shoot(|uv, axes| sampler.sample(uv, axes)));
+    let shoot =
+        |shot: vtex_truth::picture::Shot| Ok(shot.shoot(|uv, axes| sampler.sample(uv, axes)));
     let report = comparison.measure(zoom, shoot).unwrap();
     // Not the worst window: which that is changes with the noise.
     let windows = report

@@ -10,14 +10,13 @@ use std::fmt::Write as _;
 
 use kurbo::{CubicBez, ParamCurve as _, Point, Vec2};
 use rayon::prelude::*;
-use vtex::picture::View;
-use vtex::preview::Shot;
 use vtex_baker::{BakeConfig, Resources, bake};
 use vtex_format::VtexFile;
 use vtex_runtime::{BatchQuery, BatchSampler, FilterMode, LoadOptions, Trust};
 use vtex_shaders::{PackOptions, cpu, pack};
 use vtex_tests::gpu::shared as gpu;
 use vtex_tests::random::Random;
+use vtex_truth::picture::{Shot, View};
 
 /// Units along the canvas' sides.
 const CANVAS: f64 = 100.0;

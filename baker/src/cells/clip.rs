@@ -1,9 +1,8 @@
 //! Where clips let a group show in one cell, as a run of tests with jumps.
 
 use super::{
-    CellInput,
     draft::{CurvesDraft, draft_curves},
-    unit::Present,
+    input::{CellInput, Present},
 };
 use crate::drawing::tree::{Clip, ClipPart};
 

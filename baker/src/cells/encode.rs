@@ -7,12 +7,13 @@ use vtex_format::{
 };
 
 use super::{
-    CellLists, TileDraft,
     clip::Test,
     draft::{CurvesDraft, Draft},
+    lists::{CellLists, TileDraft},
+    paint_table::PaintTable,
     unit::{GroupDraft, ScopeDraft, Unit},
 };
-use crate::{cells::paint_table::PaintTable, error::BakeError};
+use crate::error::BakeError;
 
 /// Puts drafts into the file's sections, equal ones once.
 pub(super) struct ListEncoder<'a> {

@@ -1,24 +1,22 @@
 //! The lists against the painter: what a cell names must be what shows there.
 
-#![expect(clippy::print_stdout, reason = "says when there is no corpus")]
+#![expect(clippy::print_stdout, reason = "names the drawings left out")]
 
 use kurbo::{Point, Rect, Shape as _};
 use vtex_format::{CellWord, EntryKind, VtexFile};
+use vtex_testing::{Corpus, slow};
 
 use crate::{
     config::{BakeConfig, Mode, Resources},
     coverage::{
         grid::Lattice,
-        judge::{Coverage, Verdict},
         placed::{Placed, PlacedKind, place},
+        verdict::{Coverage, Verdict},
     },
     drawing::{Drawing, FillRule, Item, tree::Tree},
     geometry::line_box_distance,
     pipeline::assemble,
-    testing::{
-        Evaluator, Random, corpus_file, corpus_root, drawing_of, paint_at, random_outline, shape,
-        stored_at,
-    },
+    testing::{Evaluator, Random, drawing_of, paint_at, random_outline, shape, stored_at},
 };
 
 fn bake(drawing: Drawing, config: &BakeConfig) -> VtexFile {
@@ -155,14 +153,13 @@ fn lists_show_what_the_painter_paints() {
 
 #[test]
 fn tiger_lists_show_what_the_painter_paints() {
-    let Some(svg) = corpus_file("paper5/5_tiger__svgpan__tiger.svg") else {
-        println!("no corpus, nothing compared");
+    let Some(corpus) = Corpus::find("lists of the tiger") else {
         return;
     };
+    let svg = corpus.read("paper5/5_tiger__svgpan__tiger.svg");
     let config = msdf();
     let file = bake(drawing_of(&svg, &config), &config);
-    let slow = std::env::var_os("VTEX_SLOW").is_some();
-    let points = if slow { 300_000 } else { 30_000 };
+    let points = if slow() { 300_000 } else { 30_000 };
     let tally = compare_lists(&drawing_of(&svg, &config), &file, &config, points);
     assert_eq!(tally.wrong, 0, "{tally:?}");
     assert!(tally.compared > 29_000, "{tally:?}");
@@ -379,22 +376,12 @@ fn odd_outlines_do_no_harm() {
 /// Solid files of the corpus: each bakes to a valid file whose lists show what the painter paints.
 #[test]
 fn corpus_files_are_listed_right() {
-    let mut names: Vec<_> = ["paper5", "icons", "flags", "logos", "signs"]
-        .iter()
-        .filter_map(|folder| std::fs::read_dir(corpus_root().join(folder)).ok())
-        .flatten()
-        .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|path| path.extension().is_some_and(|extension| extension == "svg"))
-        .collect();
-    names.sort();
-    if names.is_empty() {
-        println!("no corpus, nothing compared");
-    }
-    let every = if std::env::var_os("VTEX_SLOW").is_some() {
-        1
-    } else {
-        12
+    let Some(corpus) = Corpus::find("lists of real drawings") else {
+        return;
     };
+    let mut names = corpus.svg_files(&["paper5", "icons", "flags", "logos", "signs"]);
+    names.retain(|path| path.extension().is_some_and(|ending| ending == "svg"));
+    let every = if slow() { 1 } else { 12 };
     let config = BakeConfig {
         msdf_size: 256,
         mip0_size: 64,
@@ -402,11 +389,13 @@ fn corpus_files_are_listed_right() {
     };
     for path in names.iter().step_by(every) {
         let svg = std::fs::read(path).unwrap();
-        let Ok(mut drawing) = crate::draw(&svg, &config, &Resources::default(), &|_| ()) else {
+        let Ok(mut drawing) = crate::pipeline::draw(&svg, &config, &Resources::default(), &|_| ())
+        else {
             println!("not drawn: {}", path.display());
             continue;
         };
-        let mut again = crate::draw(&svg, &config, &Resources::default(), &|_| ()).unwrap();
+        let mut again =
+            crate::pipeline::draw(&svg, &config, &Resources::default(), &|_| ()).unwrap();
         for drawing in [&mut drawing, &mut again] {
             drawing.items.retain(|item| matches!(item, Item::Shape(_)));
             drawing.tree = Tree::flat(drawing.items.len());

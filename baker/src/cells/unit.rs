@@ -3,25 +3,16 @@
 use vtex_format::{BlendMode, MaskKind};
 
 use super::{
-    CellInput, TileDraft,
     clip::{self, Formula, Test},
     draft::{Draft, draft_run},
+    input::{CellInput, Present},
+    lists::TileDraft,
+    paint_table::PaintTable,
 };
-use crate::{
-    cells::paint_table::PaintTable,
-    drawing::{
-        color,
-        tree::{Mask, Node, Scope},
-    },
+use crate::drawing::{
+    color,
+    tree::{Mask, Node, Scope},
 };
-
-/// An item that concerns a cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Present {
-    pub(super) item: u32,
-    /// Whether the cell lies inside it.
-    pub(super) full: bool,
-}
 
 /// What a list holds, front to back.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,15 +8,15 @@ mod blend;
 pub(crate) mod gradient;
 mod tree;
 
-use kurbo::{Affine, Point, Rect};
-use vtex_format::{COVERAGE_CURVES, Grid, VtexFile};
+use kurbo::{Affine, Point};
+use vtex_format::{COVERAGE_CURVES, VtexFile};
 use vtex_shaders::cpu::color::decode;
 
 use crate::{
     BakeError,
     config::{BakeConfig, Resources},
     coverage::{
-        cover::flatness_units,
+        curve_lattice::flatness_units,
         curves::lower::{LoweredOutline, Segment},
         grid::Lattice,
     },
@@ -24,7 +24,8 @@ use crate::{
         FillRule, Item, Paint,
         tree::{Node, Tree},
     },
-    geometry::{floor_index, prepare::clean},
+    geometry::prepare::clean,
+    number::floor_index,
 };
 
 /// Bands of heights that segments are sorted into.
@@ -70,16 +71,17 @@ impl Painter {
         resources: &Resources,
         file: &VtexFile,
     ) -> Result<Option<Self>, BakeError> {
-        let drawing = crate::draw(svg, config, resources, &|_| ())?;
+        let drawing = crate::pipeline::draw(svg, config, resources, &|_| ())?;
         let all_curves = file.shapes.iter().all(|s| s.coverage == COVERAGE_CURVES);
         let Some(lattice) = file.meta.curve_lattice.filter(|_| all_curves) else {
             return Ok(None);
         };
-        let steps = lattice_of(file.meta.grid, drawing.canvas_size);
+        let steps = Lattice::of_grid(file.meta.grid, drawing.canvas_size);
         let units_per_step = f64::from(lattice.units_per_cell) / steps.cell_steps();
         let units_from_canvas = Affine::scale(units_per_step) * steps.lattice_from_canvas;
         let canvas = steps.canvas.scale_from_origin(units_per_step);
         let rows = f64::from(file.meta.grid.size_cells[1] * lattice.units_per_cell);
+        let canvas_longer = drawing.longer_side();
         let mut painter = Self {
             units_per_uv: [canvas.width(), canvas.height()],
             offset_units: [canvas.x0, canvas.y0],
@@ -89,8 +91,7 @@ impl Painter {
             rows: vec![Vec::new(); ROWS],
             rows_per_unit: ROWS as f64 / rows,
         };
-        let tolerance = f64::from(flatness_units(&steps, lattice, config.max_zoom));
-        let canvas_longer = drawing.canvas_size[0].max(drawing.canvas_size[1]);
+        let tolerance = f64::from(flatness_units(&steps, lattice, config.longer_side_px()));
         for item in drawing.items.iter().rev() {
             let (outline, rule, paint) = match item {
                 Item::Shape(shape) => (&shape.outline, shape.fill_rule, Some(&shape.paint)),
@@ -216,23 +217,6 @@ impl Painter {
         } else {
             f64::INFINITY
         }
-    }
-}
-
-/// The lattice of a stored grid.
-fn lattice_of(grid: Grid, canvas_size: [f64; 2]) -> Lattice {
-    let steps = f64::from(grid.texels_per_cell);
-    let size = grid
-        .cell_from_uv_scale
-        .map(|cells| f64::from(cells) * steps);
-    let corner = grid
-        .cell_from_uv_offset
-        .map(|cells| f64::from(cells) * steps);
-    let scale = [0, 1].map(|axis| size[axis] / canvas_size[axis]);
-    Lattice {
-        grid,
-        lattice_from_canvas: Affine::new([scale[0], 0.0, 0.0, scale[1], corner[0], corner[1]]),
-        canvas: Rect::from_origin_size((corner[0], corner[1]), (size[0], size[1])),
     }
 }
 

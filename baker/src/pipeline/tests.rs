@@ -9,17 +9,22 @@
 
 use std::time::Instant;
 
+use vtex_testing::Corpus;
+
 use crate::{
     config::{BakeConfig, Mode, Stage},
     coverage::grid::Lattice,
     pipeline::assemble,
-    testing::{Evaluator, Random, corpus_file, drawing_of, paint_exactly, psnr, render, write_png},
+    testing::{Evaluator, Random, drawing_of, paint_exactly, psnr, render, write_png},
 };
 
 #[test]
 #[ignore = "prints measurements"]
 fn measure_tiger() {
-    let svg = corpus_file("paper5/5_tiger__svgpan__tiger.svg").unwrap();
+    let Some(corpus) = Corpus::find("measurements of the tiger") else {
+        return;
+    };
+    let svg = corpus.read("paper5/5_tiger__svgpan__tiger.svg");
     let config = BakeConfig {
         mode: Mode::Msdf,
         ..BakeConfig::default()
@@ -108,7 +113,10 @@ fn measure_against_fdsm() {
         msdf_size: 1024,
         ..BakeConfig::default()
     };
-    let svg = corpus_file("paper5/5_tiger__svgpan__tiger.svg").unwrap();
+    let Some(corpus) = Corpus::find("measurements of the tiger") else {
+        return;
+    };
+    let svg = corpus.read("paper5/5_tiger__svgpan__tiger.svg");
     let lattice = Lattice::new(drawing_of(&svg, &config).canvas_size, config.msdf_size);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
@@ -122,7 +130,7 @@ fn measure_against_fdsm() {
         drawing.tree = crate::drawing::tree::Tree::flat(1);
         let placed = {
             let forced =
-                crate::coverage::judge::Verdict::forced(crate::coverage::judge::Coverage::Msdf);
+                crate::coverage::verdict::Verdict::forced(crate::coverage::verdict::Coverage::Msdf);
             crate::coverage::placed::place(&drawing, &lattice, &[forced])
         };
         let area = placed[0].bounds();

@@ -6,7 +6,8 @@ use usvg::ImageRendering;
 use vtex_format::EMBEDDED_SOURCE;
 
 use crate::{
-    drawing::{Patch, color, to_f32},
+    drawing::{Patch, color},
+    number::to_f32,
     raster::{
         detail,
         mips::{self, LinearImage},

@@ -10,6 +10,7 @@ use vtex_format::{Warning, WarningCode};
 use crate::{
     config::BakeConfig,
     drawing::{Item, Patch, color, tree::Tree},
+    number::to_f32,
     raster::{
         detail,
         mips::{self, LinearImage},
@@ -351,7 +352,7 @@ impl PatchSettings {
         let [width, height] = self.canvas_size;
         Patch {
             rect: Rect::new(left * width, top * height, right * width, bottom * height),
-            image: mips::chain(level0, [left, top, right, bottom].map(narrow)),
+            image: mips::chain(level0, [left, top, right, bottom].map(to_f32)),
             feature: feature.to_owned(),
             element: element.to_owned(),
         }
@@ -363,14 +364,6 @@ impl Subtree<'_> {
     fn names(&self) -> [&str; 2] {
         [self.feature, &self.element]
     }
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the format stores uv as f32"
-)]
-fn narrow(value: f64) -> f32 {
-    value as f32
 }
 
 /// Paints one node with its ancestors' transform; `None` when resvg panics.

@@ -1,28 +1,14 @@
 //! Drawings for tests: of an SVG, or by hand.
 
-use std::path::PathBuf;
-
 use kurbo::BezPath;
 use vtex_format::{Gradient, VtexFile};
 
 use crate::{
     config::{BakeConfig, Resources},
-    drawing::{Drawing, FillRule, Item, Paint, Shape, ShapeSource, to_f32},
+    drawing::{Drawing, FillRule, Item, Paint, Shape, ShapeSource},
+    number::to_f32,
     oracle::gradient,
 };
-
-/// A file of the corpus; `None` when there is no corpus here.
-pub(crate) fn corpus_file(name: &str) -> Option<Vec<u8>> {
-    std::fs::read(corpus_root().join(name)).ok()
-}
-
-/// Folder of the corpus, whether it exists or not.
-pub(crate) fn corpus_root() -> PathBuf {
-    std::env::var_os("VTEX_CORPUS").map_or_else(
-        || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus"),
-        PathBuf::from,
-    )
-}
 
 /// A shape by hand.
 pub(crate) fn shape(outline: BezPath, fill_rule: FillRule, color: [f32; 4]) -> Item {
@@ -62,5 +48,5 @@ pub(crate) fn stored_at(file: &VtexFile, index: u32, uv: [f64; 2]) -> [f32; 4] {
 
 /// An SVG as the bake sees it, without fonts.
 pub(crate) fn drawing_of(svg: &[u8], config: &BakeConfig) -> Drawing {
-    crate::draw(svg, config, &Resources::default(), &|_| ()).unwrap()
+    crate::pipeline::draw(svg, config, &Resources::default(), &|_| ()).unwrap()
 }

@@ -10,6 +10,7 @@ use std::io::Write as _;
 
 use kurbo::{Affine, Point};
 use vtex_format::{CellWord, Entry, EntryKind, VtexFile};
+use vtex_testing::srgb::{decode, encode};
 
 use crate::{
     drawing::Item,
@@ -173,22 +174,6 @@ pub(crate) fn render(
         }
     }
     out
-}
-
-fn decode(v: f64) -> f64 {
-    if v <= 0.040_45 {
-        v / 12.92
-    } else {
-        ((v + 0.055) / 1.055).powf(2.4)
-    }
-}
-
-fn encode(v: f64) -> f64 {
-    if v <= 0.003_130_8 {
-        v * 12.92
-    } else {
-        1.055 * v.powf(1.0 / 2.4) - 0.055
-    }
 }
 
 /// Peak signal to noise ratio of two pictures in dB.

@@ -4,8 +4,6 @@ mod drawings;
 mod evaluator;
 mod random;
 
-pub(crate) use drawings::{
-    corpus_file, corpus_root, drawing_of, paint_at, shape, solid, stored_at,
-};
+pub(crate) use drawings::{drawing_of, paint_at, shape, solid, stored_at};
 pub(crate) use evaluator::{Evaluator, paint_exactly, psnr, render, under, write_png};
 pub(crate) use random::{Random, random_outline};

@@ -1,12 +1,11 @@
-//! Files of the corpus, hostile ones too, become drawings. Slow: runs with `VTEX_SLOW=1` where the
-//! folder named by `VTEX_CORPUS` exists.
-
-#![expect(clippy::print_stdout, reason = "says when there is no corpus")]
+//! Files of the corpus, hostile ones too, become drawings. Slow: runs with `VTEX_SLOW=1`.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use crate::{BakeConfig, Mode, Resources, bake, draw, testing::corpus_root};
+use vtex_testing::{Corpus, slow_only};
+
+use crate::{BakeConfig, Mode, Resources, bake, pipeline::draw};
 
 /// What usvg or resvg themselves do not finish within a minute; only a process limit helps.
 const ENDLESS: [&str; 4] = [
@@ -16,33 +15,19 @@ const ENDLESS: [&str; 4] = [
     "32_filter_bomb.svg",
 ];
 
-fn corpus() -> Option<PathBuf> {
-    let slow = std::env::var_os("VTEX_SLOW").is_some_and(|v| v == "1");
-    let folder = slow.then(corpus_root).filter(|folder| folder.is_dir());
-    if folder.is_none() {
-        println!("not run: wants VTEX_SLOW=1 and a corpus");
-    }
-    folder
-}
-
-fn svg_files(folder: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            found.extend(svg_files(&path));
-        } else if path.extension().is_some_and(|e| e == "svg" || e == "svgz") {
-            found.push(path);
-        }
-    }
-    found.sort();
-    found
+/// The corpus, where slow tests run.
+#[track_caller]
+fn corpus(untested: &str) -> Option<Corpus> {
+    let slow = slow_only(untested);
+    slow.then(|| Corpus::find(untested)).flatten()
 }
 
 #[test]
 fn raster_mode_paints_the_tiger() {
-    let Some(folder) = corpus() else { return };
-    let svg = std::fs::read(folder.join("paper5/5_tiger__svgpan__tiger.svg")).unwrap();
+    let Some(corpus) = corpus("the tiger in raster mode") else {
+        return;
+    };
+    let svg = corpus.read("paper5/5_tiger__svgpan__tiger.svg");
     let mip0 = |mode: Mode| {
         let config = BakeConfig {
             mode,
@@ -60,9 +45,11 @@ fn raster_mode_paints_the_tiger() {
 
 #[test]
 fn hostile_files_end_in_a_drawing_or_an_error() {
-    let Some(folder) = corpus() else { return };
+    let Some(corpus) = corpus("hostile files") else {
+        return;
+    };
     let mut report = String::new();
-    for file in svg_files(&folder.join("hostile")) {
+    for file in corpus.svg_files(&["hostile"]) {
         let name = file.file_name().unwrap().to_string_lossy().into_owned();
         if ENDLESS.contains(&name.as_str()) {
             continue;

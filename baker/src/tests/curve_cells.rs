@@ -1,22 +1,21 @@
 //! Curve cells against the painter, through the evaluator's twin on packed words.
 
-#![expect(clippy::print_stdout, reason = "says when there is no corpus")]
-
 use kurbo::{Line, Point, Rect, Shape as _};
 use vtex_format::VtexFile;
 use vtex_shaders::{PackOptions, cpu, pack};
+use vtex_testing::{Corpus, slow};
 
 use crate::{
     config::{BakeConfig, Mode},
     coverage::{
         grid::Lattice,
-        judge::{Coverage, Verdict},
         placed::{Placed, PlacedKind, place},
+        verdict::{Coverage, Verdict},
     },
     drawing::Drawing,
     geometry::{flatten_segment, line_box_distance},
     pipeline::assemble,
-    testing::{Random, corpus_file, drawing_of, solid},
+    testing::{Random, drawing_of, solid},
 };
 
 /// Lookups this near an edge, in steps, may fall on either side: a tenth of a pixel at zoom 64.
@@ -61,7 +60,7 @@ fn compare(drawing: &Drawing, file: &VtexFile, config: &BakeConfig, points: u32)
     let mut random = Random(9);
     let (mut compared, mut wrong) = (0, 0);
     for _ in 0..points {
-        let uv = [random.within(0.0, 1.0), random.within(0.0, 1.0)].map(crate::drawing::to_f32);
+        let uv = [random.within(0.0, 1.0), random.within(0.0, 1.0)].map(crate::number::to_f32);
         let canvas = lattice.canvas;
         let p = Point::new(
             canvas.x0 + f64::from(uv[0]) * canvas.width(),
@@ -96,13 +95,12 @@ fn curve_cells_show_what_the_painter_paints() {
         "paper5/1_figures_text__openclipart-svg__facilement_inflammable_y_01.svg",
         "paper5/4_coat_of_arms__iso-flags-svg__gu.svg",
     ];
-    let slow = std::env::var_os("VTEX_SLOW").is_some();
-    let points = if slow { 300_000 } else { 30_000 };
+    let Some(corpus) = Corpus::find("curve cells of three drawings") else {
+        return;
+    };
+    let points = if slow() { 300_000 } else { 30_000 };
     for name in names {
-        let Some(svg) = corpus_file(name) else {
-            println!("no corpus, nothing compared");
-            return;
-        };
+        let svg = corpus.read(name);
         let config = config();
         let mut drawing = drawing_of(&svg, &config);
         let mut again = drawing_of(&svg, &config);

@@ -4,9 +4,9 @@ use tiny_skia::{Pixmap, Transform};
 use vtex_format::WarningCode;
 
 use crate::{
-    BakeConfig, BakeError, Mode, Resources, bake, draw,
+    BakeConfig, BakeError, Mode, Resources, bake,
     drawing::{Drawing, Item, color},
-    pipeline,
+    pipeline::{self, draw},
     raster::{canvas, mips::LinearImage},
     svg,
     testing::solid,

@@ -1,5 +1,7 @@
 //! Section 3 of docs/format.md once more, in `f64` and without any shortcut.
 
+pub(crate) use vtex_testing::srgb::{decode, encode};
+
 pub(crate) type Rgba = [f64; 4];
 
 /// One entry as the formulas see it.
@@ -9,22 +11,6 @@ pub(crate) struct Term {
     pub(crate) coverage: [f64; 2],
     /// Straight, sRGB-encoded colours of both.
     pub(crate) color: [[f32; 4]; 2],
-}
-
-pub(crate) fn decode(c: f64) -> f64 {
-    if c <= 0.04045 {
-        c / 12.92
-    } else {
-        ((c + 0.055) / 1.055).powf(2.4)
-    }
-}
-
-pub(crate) fn encode(c: f64) -> f64 {
-    if c <= 0.003_130_8 {
-        c * 12.92
-    } else {
-        1.055 * c.powf(1.0 / 2.4) - 0.055
-    }
 }
 
 fn straight(f: fn(f64) -> f64, [r, g, b, a]: Rgba) -> Rgba {

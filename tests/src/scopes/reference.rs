@@ -2,6 +2,7 @@
 
 use vtex_format::MaskKind;
 use vtex_shaders::record;
+use vtex_testing::srgb;
 
 use super::blend::blend;
 use super::tree::{Clip, Group, Node, Scope};
@@ -129,25 +130,10 @@ fn straight(f: fn(f64) -> f64, [r, g, b, a]: Rgba) -> Rgba {
     [r, g, b, a]
 }
 
-/// IEC 61966-2-1.
 fn decode(encoded: Rgba) -> Rgba {
-    let channel = |c: f64| {
-        if c <= 0.04045 {
-            c / 12.92
-        } else {
-            ((c + 0.055) / 1.055).powf(2.4)
-        }
-    };
-    straight(channel, encoded)
+    straight(srgb::decode, encoded)
 }
 
 fn encode(linear_light: Rgba) -> Rgba {
-    let channel = |c: f64| {
-        if c <= 0.003_130_8 {
-            c * 12.92
-        } else {
-            1.055 * c.powf(1.0 / 2.4) - 0.055
-        }
-    };
-    straight(channel, linear_light)
+    straight(srgb::encode, linear_light)
 }

@@ -2,18 +2,15 @@
 
 use std::path::Path;
 
-use vtex::args::Filter;
-use vtex::metrics::{difference, difference_picture};
-use vtex::picture::{Picture, View, fit_size};
-use vtex::preview::Shot;
-use vtex::reference::{Edges, Reference, SUPERSAMPLES};
-use vtex::texture::{Shooter, canvas_options};
-use vtex::windows::EdgeFinder;
 use vtex_baker::{BakeConfig, Resources, bake};
 use vtex_format::VtexFile;
 use vtex_runtime::BatchQuery;
 use vtex_shaders::cpu;
 use vtex_tests::{fonts, gpu};
+use vtex_truth::comparison::EdgeFinder;
+use vtex_truth::picture::{Picture, Shot, View, difference, difference_picture, fit_size};
+use vtex_truth::reference::{Edges, Reference, SUPERSAMPLES};
+use vtex_truth::texture::{FilterMode, Shooter, canvas_options};
 
 /// Pixels of the pictures' longer side.
 const LONGER_PX: u32 = 64;
@@ -104,7 +101,7 @@ struct Eyes {
 
 impl Eyes {
     fn new(file: &VtexFile) -> Self {
-        let pack = canvas_options(Filter::Point);
+        let pack = canvas_options(FilterMode::Point);
         let shooter = |gpu| Shooter::on_gpu(gpu, file, pack).unwrap();
         Self {
             words: vtex_shaders::pack(file, &pack),

@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use vtex::patches::patch_cover;
-
 use crate::look::Found;
 use crate::table::Expected;
+use vtex_truth::texture::patch_cover;
 
 /// Share of lookups that GPU and twin may answer differently: roundings at edges.
 const APART_SHARE: f64 = 1e-4;

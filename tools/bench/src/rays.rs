@@ -6,6 +6,7 @@ use anyhow::{Context as _, Result, ensure};
 use vtex_baker::Resources;
 use vtex_format::{CellWord, Entry, EntryKind, Grid, Image, SpecKey, VtexFile};
 use vtex_runtime::{LoadOptions, Scene, TraceOptions, Tracer, scene};
+use vtex_scenes::showroom;
 
 use crate::clock::{Trial, interleave};
 use crate::device::Device;
@@ -56,9 +57,9 @@ pub(crate) fn rays_table(
         .collect();
     let few = |files: &[VtexFile]| files.iter().take(SHOWROOM).cloned().collect();
     let rooms = [
-        scene::showroom(few(&rasters)),
-        scene::showroom(few(&vectors)),
-        scene::showroom(Vec::new()),
+        showroom(few(&rasters)),
+        showroom(few(&vectors)),
+        showroom(Vec::new()),
     ];
     table.row(row(device, "showroom", &rooms, effort)?);
     for ((raster, vector), (_, subject)) in rasters.into_iter().zip(vectors).zip(subjects) {

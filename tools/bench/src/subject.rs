@@ -8,6 +8,7 @@ use vtex_baker::{BakeConfig, Resources};
 use vtex_format::{Image, VtexFile};
 use vtex_shaders::cpu::Sampler;
 use vtex_shaders::{FilterMode, PackOptions, pack};
+use vtex_testing::corpus;
 
 use crate::queries::{QuerySet, Screen};
 use crate::raster::RASTER_SIZE;
@@ -94,15 +95,17 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
 }
 
 /// `named`, or the default samples; never none.
+#[expect(clippy::print_stderr, reason = "a tool talks to its user")]
 pub(crate) fn find(named: &[PathBuf]) -> Result<Vec<PathBuf>> {
     if !named.is_empty() {
         return Ok(named.to_owned());
     }
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let corpus = std::env::var_os("VTEX_CORPUS")
-        .map_or_else(|| root.join("../shared/corpus"), PathBuf::from);
     let mut files = svg_files(&root.join("tests/data/svg/paper"));
-    files.extend(svg_files(&corpus.join("paper5")));
+    match corpus::folder().map_err(anyhow::Error::msg)? {
+        Some(corpus) => files.extend(svg_files(&corpus.join("paper5"))),
+        None => eprintln!("no corpus: only the project's own samples are measured"),
+    }
     anyhow::ensure!(!files.is_empty(), "no samples found; name SVG files");
     Ok(files)
 }

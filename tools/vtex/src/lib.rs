@@ -1,38 +1,13 @@
-//! The parts of the `vtex` command that tests and benches use too: the resvg reference, picture
-//! metrics, previews and comparisons.
+//! The `vtex` command; [`run`] is the whole of it.
 //!
-//! [`mod@reference`] draws the truth, [`preview`] shoots pictures of a texture, [`metrics`] says how
-//! far they are apart, [`comparison`] does all three at a zoom. [`command::run`] is the whole
-//! command.
+//! One room for each job: `cli` talks to the user, `command` has one file for each subcommand,
+//! `baking` turns SVG into `.vtex` in limited processes, `texture` looks at `.vtex` files, `files`
+//! reads and writes.
 
-pub mod args;
-pub mod baking;
-pub mod cache;
-pub mod color;
-pub mod command;
-pub mod comparison;
-pub mod console;
-pub mod failure;
-pub mod fonts;
-pub mod heat;
-pub mod images;
-pub mod input;
-mod lattice;
-mod memory;
-pub mod metrics;
-pub mod output;
-pub mod page;
-pub mod patches;
-pub mod picture;
-mod plain;
-pub mod preview;
-pub mod raster;
-pub mod reference;
-pub mod srgb;
-mod strokes;
-pub mod texture;
-pub mod tracing;
-pub mod walk;
-pub mod windows;
-mod wire;
-mod workers;
+mod baking;
+mod cli;
+mod command;
+mod files;
+mod texture;
+
+pub use command::run;

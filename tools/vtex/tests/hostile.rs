@@ -2,11 +2,12 @@
 //! exit code and a line, and leaves nothing behind.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
 
 use tempfile::TempDir;
+use vtex_testing::Corpus;
 
 const SQUARE: &str = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 8 8'>\
     <path id='square' fill='#d03020' d='M1 1H6V7H1z'/></svg>";
@@ -364,20 +365,13 @@ fn codes(expected: &str) -> &'static [i32] {
 }
 
 #[test]
-#[expect(
-    clippy::print_stdout,
-    reason = "a test that did not look says so, and one that did what it saw"
-)]
+#[expect(clippy::print_stdout, reason = "what was seen is wanted")]
 fn every_hostile_file_of_the_corpus_gets_what_is_expected() {
-    let corpus = std::env::var_os("VTEX_CORPUS").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/corpus"),
-        PathBuf::from,
-    );
-    let folder = corpus.join("hostile");
-    let Ok(table) = fs::read_to_string(folder.join("EXPECTED.tsv")) else {
-        println!("{}: no hostile files there, not tested", folder.display());
+    let Some(corpus) = Corpus::find("the hostile files of the corpus") else {
         return;
     };
+    let folder = corpus.path("hostile");
+    let table = String::from_utf8(corpus.read("hostile/EXPECTED.tsv")).expect("a table");
     let mut count = 0;
     for row in table.lines().skip(1) {
         let columns: Vec<&str> = row.split('\t').collect();

@@ -49,8 +49,8 @@ const MAX_DEPTH: u32 = MAX_FRAMES - 2;
 /// What of the options changes geometry and colours.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WalkOptions {
-    /// Largest magnification that strokes must stand.
-    pub(crate) max_zoom: f64,
+    /// Pixels along the canvas' longer side at the largest zoom, for which strokes must be right.
+    pub(crate) longer_side_px: f64,
     /// Replaces fills.
     pub(crate) fill_color: Option<[f32; 4]>,
     /// Replaces strokes.
@@ -75,7 +75,7 @@ pub(crate) fn plan<'a>(
         window: canvas,
         quality: StrokeQuality {
             canvas_longer_side: canvas_size[0].max(canvas_size[1]),
-            max_zoom: options.max_zoom,
+            longer_side_px: options.longer_side_px,
         },
         steps: Vec::new(),
         nodes: Vec::new(),

@@ -11,18 +11,18 @@ use std::time::Instant;
 use serde_json::{Value, json};
 use vtex_baker::BakeConfig;
 use vtex_format::Warning;
+use vtex_truth::comparison::human_bytes;
 
-use crate::args::Bake;
 use crate::baking;
-use crate::cache::Cache;
-use crate::console::{Console, Format, human_bytes};
-use crate::failure::{ExitCode, Failure, Outcome};
-use crate::fonts::FontLibrary;
-use crate::images::ImageFolders;
-use crate::input::{self, Input};
-use crate::output;
-use crate::wire::Summary;
-use crate::workers::Workers;
+use crate::baking::cache::Cache;
+use crate::baking::fonts::FontLibrary;
+use crate::baking::images::ImageFolders;
+use crate::baking::wire::Summary;
+use crate::baking::workers::Workers;
+use crate::cli::args::Bake;
+use crate::cli::{Console, ExitCode, Failure, Format, Outcome};
+use crate::files::input::{self, Input};
+use crate::files::output;
 
 /// Warnings shown for one file unless `--verbose`.
 const WARNINGS_SHOWN: usize = 3;
@@ -83,7 +83,7 @@ impl<'a> Job<'a> {
                 "--check needs files to compare with, not -o -",
             ));
         }
-        let config = baking::config(&args.options)?;
+        let config = baking::config(&args.options);
         config
             .check()
             .map_err(|error| Failure::usage(error.to_string()))?;
@@ -282,7 +282,7 @@ impl<'a> Job<'a> {
     }
 
     fn warn(&self, path: &Path, warnings: &[Warning]) {
-        use crate::console::Verbosity::Verbose;
+        use crate::cli::Verbosity::Verbose;
         let all = self.console.verbosity == Verbose;
         let shown = if all { warnings.len() } else { WARNINGS_SHOWN };
         for warning in warnings.iter().take(shown) {

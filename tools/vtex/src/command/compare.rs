@@ -5,17 +5,16 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 use vtex_format::VtexFile;
+use vtex_truth::comparison::{Column, Comparison, Page, Sizes, Terms, Window, ZoomReport};
+use vtex_truth::picture::difference_picture;
+use vtex_truth::reference::{Edges, Reference};
+use vtex_truth::texture::{RasterTexture, Shooter, TODAY_TEXELS, canvas_options};
 
-use crate::args::Compare;
-use crate::comparison::{Comparison, Terms, Window, ZoomReport};
-use crate::console::{Console, Format};
-use crate::failure::{ExitCode, Failure, Outcome};
-use crate::fonts::FontLibrary;
-use crate::page::{Column, Page, Sizes};
-use crate::raster::RasterTexture;
-use crate::reference::{Edges, Reference};
-use crate::texture::{self, Shooter};
-use crate::{input, metrics, output, raster};
+use crate::baking::fonts::FontLibrary;
+use crate::cli::args::Compare;
+use crate::cli::{Console, ExitCode, Failure, Format, Outcome};
+use crate::files::{input, output};
+use crate::texture;
 
 /// Runs `vtex compare`.
 pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {
@@ -35,8 +34,8 @@ pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {
     let reference = Reference::parse(&svg, fonts.for_svg(&svg), Edges::Crisp)
         .map_err(|error| Failure::invalid(&args.svg, format!("not a usable SVG: {error}")))?;
     let comparison = Comparison::new(&reference, terms(&args, &file))?;
-    let pack = texture::canvas_options(args.lookup.filter);
-    let shooter = Shooter::new(&file, pack, args.lookup.backend)?;
+    let pack = canvas_options(args.lookup.filter.into());
+    let shooter = texture::shooter(&file, pack, args.lookup.backend)?;
     let progress = console.progress(args.zoom.len() as u64, "comparing");
     let mut reports = Vec::new();
     for &zoom in &args.zoom {
@@ -70,7 +69,7 @@ pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {
 /// The truth's own noise in the worst window of each zoom.
 fn noise_db(comparison: &Comparison<'_>, reports: &[ZoomReport]) -> Outcome<Vec<f64>> {
     let worst = reports.iter().map(|report| report.worst().view);
-    worst.map(|view| comparison.noise_db(view)).collect()
+    worst.map(|view| Ok(comparison.noise_db(view)?)).collect()
 }
 
 /// The worst window of all, as three PNGs.
@@ -87,7 +86,7 @@ fn write_pictures(
     };
     let truth = comparison.truth(worst.view)?;
     let picture = comparison.as_compared(shooter.shoot(comparison.shot(worst.view))?);
-    let apart = metrics::difference_picture(&truth, &picture, 4.0);
+    let apart = difference_picture(&truth, &picture, 4.0);
     output::create_folder(folder)?;
     for (name, picture) in [("svg", &truth), ("vtex", &picture), ("difference", &apart)] {
         output::write(&folder.join(format!("{name}.png")), &picture.to_png()?)?;
@@ -184,12 +183,12 @@ fn write_page(
 ) -> Outcome<()> {
     let smooth = Reference::parse(stock.svg, stock.fonts.for_svg(stock.svg), Edges::Smooth)
         .map_err(|error| Failure::invalid(&args.svg, error))?;
-    let texture = RasterTexture::new(&smooth, raster::TODAY_TEXELS)?;
+    let texture = RasterTexture::new(&smooth, TODAY_TEXELS)?;
     let name = args
         .svg
         .file_stem()
         .map_or_else(|| "drawing".into(), |stem| stem.to_string_lossy());
-    let mut page = Page::new(folder, "vtex compare")?;
+    let mut page = Page::new("vtex compare");
     page.drawing(
         &name,
         &Sizes::new(stock.svg.len() as u64, stock.vtex_bytes, &texture)?,
@@ -200,9 +199,9 @@ fn write_page(
         let shot = comparison.shot(view);
         let columns = [
             Column::new(comparison, &truth, shooter.shoot(shot)?),
-            Column::new(comparison, &truth, raster::shoot(&texture, shot)),
+            Column::new(comparison, &truth, texture.shoot(shot)),
         ];
         page.row(report.zoom, &truth, &columns)?;
     }
-    page.finish()
+    output::write_page(folder, page)
 }

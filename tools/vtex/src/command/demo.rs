@@ -5,22 +5,17 @@ use std::time::Instant;
 
 use vtex_baker::BakeConfig;
 use vtex_format::VtexFile;
+use vtex_truth::comparison::{Column, Comparison, Page, Sizes, Terms, WINDOWS, human_bytes};
+use vtex_truth::reference::{Edges, Reference};
+use vtex_truth::texture::{FilterMode, RasterTexture, Shooter, TODAY_TEXELS, canvas_options};
 
-use crate::args::Demo;
-use crate::args::{Backend, Filter};
 use crate::baking;
-use crate::comparison::{Comparison, Terms};
-use crate::console::{Console, human_bytes};
-use crate::failure::{ExitCode, Failure, Outcome};
-use crate::fonts::FontLibrary;
-use crate::input::{self, Input};
-use crate::output;
-use crate::page::{Column, Page, Sizes};
-use crate::raster::{self, RasterTexture};
-use crate::reference::{Edges, Reference};
-use crate::texture::{self, Shooter};
-use crate::tracing::{self, SceneKind, Settings};
-use crate::windows::WINDOWS;
+use crate::baking::fonts::FontLibrary;
+use crate::cli::args::Demo;
+use crate::cli::{Console, ExitCode, Failure, Outcome};
+use crate::files::input::{self, Input};
+use crate::files::output;
+use crate::texture::film::{self, SceneKind, Settings};
 
 /// Zooms that are shown.
 const ZOOMS: [f64; 4] = [1.0, 8.0, 32.0, 256.0];
@@ -49,19 +44,19 @@ pub(super) fn run(args: Demo, console: Console) -> Outcome<ExitCode> {
     for input in &inputs {
         drawings.push(Drawing::bake(input, &args.output, &fonts, console)?);
     }
-    let mut page = Page::new(&args.output, "Vector textures: SVG, vtex, raster")?;
+    let mut page = Page::new("Vector textures: SVG, vtex, raster");
     if !args.no_render {
         let begun = Instant::now();
         let files = drawings
             .iter()
             .map(|drawing| drawing.file.clone())
             .collect();
-        let film = tracing::trace(files, SCENE, console)?;
-        let png = tracing::encode(&film, SCENE.kind, Path::new("scene.png"))?;
+        let film = film::trace(files, SCENE, console)?;
+        let png = film::encode(&film, SCENE.kind, Path::new("scene.png"))?;
         page.large_picture(
-            &png,
+            png,
             "Path-traced with the textures baked from these drawings",
-        )?;
+        );
         console.note(&format!(
             "traced the scene in {:.1} s",
             begun.elapsed().as_secs_f64()
@@ -71,7 +66,7 @@ pub(super) fn run(args: Demo, console: Console) -> Outcome<ExitCode> {
     for drawing in &drawings {
         drawing.show(&mut page, args.size, &fonts, console)?;
     }
-    page.finish()?;
+    output::write_page(&args.output, page)?;
     console.result(format!("{}\n", args.output.join("index.html").display()).as_bytes())?;
     Ok(ExitCode::Ok)
 }
@@ -127,7 +122,7 @@ impl Drawing {
                 .map_err(|error| Failure::invalid(path, error))
         };
         let crisp = draw(Edges::Crisp)?;
-        let texture = RasterTexture::new(&draw(Edges::Smooth)?, raster::TODAY_TEXELS)?;
+        let texture = RasterTexture::new(&draw(Edges::Smooth)?, TODAY_TEXELS)?;
         let comparison = Comparison::new(
             &crisp,
             Terms {
@@ -137,8 +132,7 @@ impl Drawing {
                 mask: false,
             },
         )?;
-        let pack = texture::canvas_options(Filter::Point);
-        let shooter = Shooter::new(&self.file, pack, Backend::Cpu)?;
+        let shooter = Shooter::on_cpu(&self.file, canvas_options(FilterMode::Point));
         let name = path
             .file_stem()
             .map_or_else(|| "drawing".into(), |stem| stem.to_string_lossy());
@@ -151,7 +145,7 @@ impl Drawing {
             let shot = comparison.shot(view);
             let truth = comparison.truth(view)?;
             let vtex = Column::new(&comparison, &truth, shooter.shoot(shot)?);
-            let raster = Column::new(&comparison, &truth, raster::shoot(&texture, shot));
+            let raster = Column::new(&comparison, &truth, texture.shoot(shot));
             page.row(zoom, &truth, &[vtex, raster])?;
         }
         console.note(&format!(

@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 use vtex_format::{CellWord, Entry, EntryKind, Image, VtexFile};
+use vtex_truth::picture::encode_png;
+use vtex_truth::srgb;
 
-use crate::args::Extract;
-use crate::console::Console;
-use crate::failure::{ExitCode, Outcome};
-use crate::heat::{cell_loads, heat_map};
-use crate::picture::encode_png;
-use crate::{input, output, srgb, texture};
+use crate::cli::args::Extract;
+use crate::cli::{Console, ExitCode, Outcome};
+use crate::files::{input, output};
+use crate::texture;
+use crate::texture::heat::{cell_loads, heat_map};
 
 /// Runs `vtex extract`.
 pub(super) fn run(args: &Extract, console: Console) -> Outcome<ExitCode> {
@@ -26,8 +27,8 @@ pub(super) fn run(args: &Extract, console: Console) -> Outcome<ExitCode> {
     folder.layers(&file)?;
     folder.images(&file)?;
     match console.format {
-        crate::console::Format::Json => console.json(&json!(folder.written))?,
-        crate::console::Format::Text => {
+        crate::cli::Format::Json => console.json(&json!(folder.written))?,
+        crate::cli::Format::Text => {
             let (count, name) = (folder.written.len(), args.output.display());
             console.note(&format!("{name}: {count} files"));
         }

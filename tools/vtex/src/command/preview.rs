@@ -1,14 +1,13 @@
 //! `vtex preview`.
 
 use vtex_format::VtexFile;
+use vtex_truth::picture::{Shot, View, fit_size};
+use vtex_truth::texture::pack_options;
 
-use crate::args::{Preview, Size};
-use crate::console::Console;
-use crate::failure::{ExitCode, Outcome};
-use crate::picture::{View, fit_size};
-use crate::preview::Shot;
-use crate::texture::{self, Shooter};
-use crate::{input, output};
+use crate::cli::args::Preview;
+use crate::cli::{Console, ExitCode, Outcome, Size};
+use crate::files::{input, output};
+use crate::texture;
 
 /// Runs `vtex preview`.
 pub(super) fn run(args: &Preview, console: Console) -> Outcome<ExitCode> {
@@ -20,8 +19,8 @@ pub(super) fn run(args: &Preview, console: Console) -> Outcome<ExitCode> {
         size_px: size_px(args.size, view, &file),
         spp: args.lookup.spp,
     };
-    let pack = texture::pack_options(args.lookup.filter);
-    let picture = Shooter::new(&file, pack, args.lookup.backend)?.shoot(shot)?;
+    let pack = pack_options(args.lookup.filter.into());
+    let picture = texture::shooter(&file, pack, args.lookup.backend)?.shoot(shot)?;
     let png = picture.to_png()?;
     if args.output.as_os_str() == "-" {
         console.result(&png)?;

@@ -8,12 +8,12 @@ use std::time::Instant;
 use clap::Parser;
 use vtex_baker::{BakeConfig, Resources, Stage};
 
-use crate::args::{self, Bake, Cli, Command};
-use crate::failure::{ExitCode, Failure, Outcome};
-use crate::fonts::FontLibrary;
-use crate::images::ImageFolders;
-use crate::wire::{self, Reply, Request, Summary};
-use crate::{baking, memory};
+use crate::baking::fonts::FontLibrary;
+use crate::baking::images::ImageFolders;
+use crate::baking::wire::{self, Reply, Request, Summary};
+use crate::baking::{self, memory};
+use crate::cli::args::{self, Bake, Cli, Command};
+use crate::cli::{ExitCode, Failure, Outcome};
 
 /// Runs `vtex worker`: bakes what is asked for until nobody asks any more.
 pub(super) fn run(args: &args::Worker) -> Outcome<ExitCode> {
@@ -79,7 +79,7 @@ struct Baker {
 impl Baker {
     fn new(bake: &Bake, verbose: bool) -> Outcome<Self> {
         Ok(Self {
-            config: baking::config(&bake.options)?,
+            config: baking::config(&bake.options),
             fonts: FontLibrary::new(bake.options.fonts.clone())?,
             images: ImageFolders::new(&bake.options.allow_images)?,
             verbose,

@@ -7,6 +7,7 @@ use vtex_format::{
     COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, Finding, PaintRecord, Preparation, ShapeRecord,
     ShapeReport, VtexFile,
 };
+use vtex_truth::srgb;
 
 use super::hex;
 
@@ -146,5 +147,5 @@ fn css(paint: &PaintRecord) -> String {
     if paint.is_gradient() {
         return "gradient".to_owned();
     }
-    format!("#{}", hex(&paint.color.map(crate::srgb::byte)))
+    format!("#{}", hex(&paint.color.map(srgb::byte)))
 }

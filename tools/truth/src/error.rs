@@ -1,0 +1,18 @@
+//! What can go wrong while a picture is drawn, taken or encoded.
+
+use vtex_runtime::RuntimeError;
+
+/// Why there is no picture.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TruthError {
+    /// The pixels do not fit into memory.
+    #[error("cannot allocate the reference picture")]
+    Memory,
+    /// The PNG encoder refused the picture.
+    #[error("cannot encode PNG: {0}")]
+    Png(#[from] png::EncodingError),
+    /// The GPU, or what was asked of it.
+    #[error("{0}")]
+    Gpu(#[from] RuntimeError),
+}

@@ -1,0 +1,84 @@
+//! Pictures of textures: of a `.vtex` file, and of the raster texture that engines use today.
+
+mod patches;
+mod raster;
+
+use vtex_format::{AddressMode, VtexFile};
+use vtex_runtime::{BatchSampler, Gpu, LoadOptions, Trust};
+use vtex_shaders::{PackOptions, cpu};
+
+use crate::TruthError;
+use crate::picture::{Picture, Shot};
+
+pub use patches::{PatchCover, patch_cover};
+pub use raster::{RasterTexture, TODAY_TEXELS};
+pub use vtex_shaders::FilterMode;
+
+/// Pack options for a filter.
+pub fn pack_options(filter: FilterMode) -> PackOptions {
+    PackOptions {
+        filter,
+        ..PackOptions::default()
+    }
+}
+
+/// As [`pack_options`], showing the canvas as it is whatever texture matrix and address mode the
+/// file asks for: for comparisons with the drawing.
+pub fn canvas_options(filter: FilterMode) -> PackOptions {
+    PackOptions {
+        address: Some([AddressMode::Clamp; 2]),
+        texture_matrix: Some([1.0, 0.0, 0.0, 1.0, 0.0, 0.0]),
+        ..pack_options(filter)
+    }
+}
+
+/// Takes pictures of one texture.
+#[derive(Debug)]
+pub enum Shooter {
+    /// With the evaluator in Rust.
+    Cpu {
+        /// The packed texture.
+        words: Vec<u32>,
+    },
+    /// With the evaluator in WGSL.
+    Gpu {
+        /// The uploaded texture; boxed, for it is large.
+        sampler: Box<BatchSampler>,
+    },
+}
+
+impl Shooter {
+    /// Prepares a texture for pictures by the evaluator in Rust.
+    pub fn on_cpu(file: &VtexFile, pack: PackOptions) -> Self {
+        Self::Cpu {
+            words: vtex_shaders::pack(file, &pack),
+        }
+    }
+
+    /// Prepares a texture for pictures on a GPU that is open already.
+    ///
+    /// # Errors
+    /// When the texture does not fit the GPU.
+    pub fn on_gpu(gpu: &Gpu, file: &VtexFile, pack: PackOptions) -> Result<Self, TruthError> {
+        let options = LoadOptions { pack };
+        let trust = Trust::default();
+        let sampler = BatchSampler::new(&gpu.device, &gpu.queue, file, &options, trust)?;
+        Ok(Self::Gpu {
+            sampler: Box::new(sampler),
+        })
+    }
+
+    /// Takes a picture.
+    ///
+    /// # Errors
+    /// When the GPU fails.
+    pub fn shoot(&self, shot: Shot) -> Result<Picture, TruthError> {
+        match self {
+            Self::Cpu { words } => {
+                let sampler = cpu::Sampler::new(words);
+                Ok(shot.shoot(|uv, footprint| sampler.sample(uv, footprint)))
+            }
+            Self::Gpu { sampler } => Ok(shot.shoot_batches(|queries| sampler.sample(queries))?),
+        }
+    }
+}
