@@ -1,36 +1,18 @@
 //! `vtex-bench`: how long bakes, lookups and rays take on this machine, beside their rivals.
 
-mod clock;
-mod device;
-mod lookups;
-mod machine;
-mod processes;
-mod queries;
-mod raster;
-mod rasterise;
-mod rays;
 mod report;
-mod rivals;
-mod sfg22;
-mod sizes;
-mod stages;
 mod subject;
-mod table;
+mod tables;
+mod timing;
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use anyhow::{Result, bail};
 use clap::{Parser, ValueEnum};
-use vtex_baker::Resources;
 
-use crate::device::Device;
-use crate::lookups::{count_table, cpu_tables, gpu_tables};
-use crate::machine::Machine;
 use crate::report::Report;
-use crate::rivals::Effort;
-use crate::stages::stages_table;
-use crate::subject::Subject;
+use crate::subject::{Subject, find, system_fonts};
+use crate::timing::{Device, Effort, Machine};
 
 /// Times bake stages, lookups a second per filter mode and rays a second, and prints the machine
 /// and the adapter.
@@ -91,7 +73,7 @@ fn main() -> Result<()> {
         let [svg] = args.files.as_slice() else {
             bail!("--png takes one SVG file");
         };
-        return processes::rasterise_to_png(svg, png);
+        return tables::rasterise_to_png(svg, png);
     }
     let wanted = |part| args.only.is_empty() || args.only.contains(&part);
     let effort = Effort {
@@ -99,8 +81,8 @@ fn main() -> Result<()> {
         gpu_lookups: usize::from(args.windows) << 18,
         cpu_lookups: 1 << 18,
     };
-    let paths = subject::find(&args.files)?;
-    let resources = resources();
+    let paths = find(&args.files)?;
+    let resources = system_fonts();
     let machine = Machine::detect();
     let cores = machine.cores();
     let device = (wanted(Part::Gpu) || wanted(Part::Rays))
@@ -109,16 +91,21 @@ fn main() -> Result<()> {
     let mut report = Report::begin(machine, device.as_ref(), resources.fonts.len())?;
 
     if wanted(Part::Bake) {
-        report.add(stages_table(&paths, &resources, 1, effort.rounds)?)?;
+        report.add(tables::stages_table(&paths, &resources, 1, effort.rounds)?)?;
         if cores > 1 {
-            report.add(stages_table(&paths, &resources, cores, effort.rounds)?)?;
+            report.add(tables::stages_table(
+                &paths,
+                &resources,
+                cores,
+                effort.rounds,
+            )?)?;
         }
     }
     if wanted(Part::Sizes) {
-        report.add_all(sizes::size_tables(&paths, &resources)?)?;
+        report.add_all(tables::size_tables(&paths, &resources)?)?;
     }
     if args.only.contains(&Part::Processes) {
-        report.add_all(processes::process_tables(&paths, effort.rounds)?)?;
+        report.add_all(tables::process_tables(&paths, effort.rounds)?)?;
     }
     let subjects: Vec<Subject> = match wanted(Part::Cpu) || wanted(Part::Gpu) || wanted(Part::Rays)
     {
@@ -129,32 +116,22 @@ fn main() -> Result<()> {
         false => Vec::new(),
     };
     if wanted(Part::Cpu) {
-        report.add(count_table(&subjects, effort))?;
-        report.add_all(cpu_tables(&subjects, 1, effort)?)?;
+        report.add(tables::count_table(&subjects, effort))?;
+        report.add_all(tables::cpu_tables(&subjects, 1, effort)?)?;
         if cores > 1 {
-            report.add_all(cpu_tables(&subjects, cores, effort)?)?;
+            report.add_all(tables::cpu_tables(&subjects, cores, effort)?)?;
         }
     }
     if let Some(device) = device.as_ref().filter(|_| wanted(Part::Gpu)) {
-        rivals::check_queries(device)?;
-        report.add_all(gpu_tables(device, &subjects, effort)?)?;
-        report.add(rivals::sfg22_table(device, effort)?)?;
-        report.add(rivals::minified_table(device, effort)?)?;
-        report.add(rivals::fetch_table(device, effort)?)?;
+        tables::check_queries(device)?;
+        report.add_all(tables::gpu_tables(device, &subjects, effort)?)?;
+        report.add(tables::sfg22_table(device, effort)?)?;
+        report.add(tables::minified_table(device, effort)?)?;
+        report.add(tables::fetch_table(device, effort)?)?;
     }
     if let Some(device) = device.as_ref().filter(|_| wanted(Part::Rays)) {
         let subjects: Vec<(PathBuf, Subject)> = paths.into_iter().zip(subjects).collect();
-        report.add(rays::rays_table(device, &subjects, &resources, effort)?)?;
+        report.add(tables::rays_table(device, &subjects, &resources, effort)?)?;
     }
     report.finish(args.markdown.as_deref(), args.json.as_deref())
-}
-
-/// The system's fonts, for drawings with text.
-fn resources() -> Resources {
-    let mut fonts = resvg::usvg::fontdb::Database::new();
-    fonts.load_system_fonts();
-    Resources {
-        fonts: Arc::new(fonts),
-        ..Resources::default()
-    }
 }

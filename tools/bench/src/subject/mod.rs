@@ -1,7 +1,11 @@
 //! One SVG file to measure with: baked, and as the raster texture it stands for.
 
+mod raster;
+mod rasterise;
+
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::{Context as _, Result};
 use vtex_baker::{BakeConfig, Resources};
@@ -10,9 +14,10 @@ use vtex_shaders::cpu::Sampler;
 use vtex_shaders::{FilterMode, PackOptions, pack};
 use vtex_testing::corpus;
 
-use crate::queries::{QuerySet, Screen};
-use crate::raster::RASTER_SIZE;
-use crate::rasterise::rasterise;
+use crate::timing::{QuerySet, Screen};
+
+pub(crate) use raster::{CpuRaster, RASTER_SIZE, halves_kernel, hardware_kernel, synthetic};
+pub(crate) use rasterise::{parse, rasterise, render};
 
 /// Sides of the lattice of points that judge how busy a window is.
 const PROBES: u16 = 24;
@@ -78,6 +83,16 @@ impl Subject {
                 ..PackOptions::default()
             },
         )
+    }
+}
+
+/// The system's fonts, for drawings with text.
+pub(crate) fn system_fonts() -> Resources {
+    let mut fonts = resvg::usvg::fontdb::Database::new();
+    fonts.load_system_fonts();
+    Resources {
+        fonts: Arc::new(fonts),
+        ..Resources::default()
     }
 }
 

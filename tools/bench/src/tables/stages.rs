@@ -9,11 +9,9 @@ use rayon::prelude::*;
 use vtex_baker::{BakeConfig, Resources, Stage};
 use vtex_format::{VtexFile, WriteError};
 
-use crate::clock::{Spread, Trial, interleave};
-use crate::raster::RASTER_SIZE;
-use crate::rasterise::rasterise;
-use crate::subject::{name, read};
-use crate::table::{Cell, Table};
+use crate::report::{Cell, Table};
+use crate::subject::{RASTER_SIZE, name, rasterise, read};
+use crate::timing::{Spread, Trial, interleave};
 
 /// Columns, in the order of [`Stage`].
 const STAGES: [(Stage, &str); 8] = [

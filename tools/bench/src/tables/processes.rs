@@ -9,11 +9,9 @@ use std::time::{Duration, Instant};
 use anyhow::{Context as _, Result, ensure};
 use vtex_baker::Resources;
 
-use crate::clock::{Spread, Trial, interleave};
-use crate::raster::RASTER_SIZE;
-use crate::rasterise::{parse, render};
-use crate::subject::{name, read};
-use crate::table::{Cell, Table};
+use crate::report::{Cell, Table};
+use crate::subject::{RASTER_SIZE, name, parse, read, render, system_fonts};
+use crate::timing::{Spread, Trial, interleave};
 
 /// What the rival prints, in this order.
 const RIVAL_STAGES: [&str; 4] = ["parse", "render", "encode", "write"];
@@ -25,7 +23,7 @@ pub(crate) fn rasterise_to_png(svg: &Path, png: &Path) -> Result<()> {
     let bytes = read(svg)?;
     let has_text = bytes.windows(5).any(|part| part == b"<text");
     let resources = if has_text {
-        crate::resources()
+        system_fonts()
     } else {
         Resources::default()
     };

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
-use crate::clock::Spread;
+use crate::timing::Spread;
 
 /// One figure or word of a table.
 #[derive(Clone, Debug)]

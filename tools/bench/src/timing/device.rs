@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use vtex_runtime::Gpu;
 use wgpu::util::DeviceExt as _;
 
-use crate::queries::QuerySet;
+use super::queries::QuerySet;
 
 /// A 32-bit copy destination that mapping wants: two timestamps of 8 bytes.
 const STAMPS_BYTES: u64 = 16;
@@ -104,7 +104,7 @@ impl Device {
 
     /// Compiles `wgsl`, which gives `bench_sample`; its group 0 is bound to `resources` in order.
     pub(crate) fn kernel(&self, wgsl: &str, resources: &[wgpu::BindingResource<'_>]) -> Kernel {
-        let source = [include_str!("wgsl/root.wgsl"), wgsl].concat();
+        let source = [include_str!("../wgsl/root.wgsl"), wgsl].concat();
         let module = self
             .device
             .create_shader_module(wgpu::ShaderModuleDescriptor {

@@ -1,5 +1,7 @@
 //! Collects tables, prints them as they come and writes them to files at the end.
 
+mod table;
+
 use std::fs;
 use std::io::Write as _;
 use std::path::Path;
@@ -8,9 +10,9 @@ use std::time::Instant;
 use anyhow::{Context as _, Result};
 use serde_json::{Value, json};
 
-use crate::device::Device;
-use crate::machine::{self, Machine};
-use crate::table::Table;
+use crate::timing::{Device, Machine, load_average};
+
+pub(crate) use table::{Cell, Table};
 
 /// One run of the benchmark.
 #[derive(Debug)]
@@ -28,7 +30,7 @@ impl Report {
     pub(crate) fn begin(machine: Machine, device: Option<&Device>, fonts: usize) -> Result<Self> {
         let mut report = Self {
             adapter: device.map(Device::to_json),
-            loads: machine::load_average().into_iter().collect(),
+            loads: load_average().into_iter().collect(),
             start: Instant::now(),
             markdown: String::new(),
             tables: Vec::new(),
@@ -58,7 +60,7 @@ impl Report {
 
     /// Prints how busy the machine was and writes what was asked for.
     pub(crate) fn finish(mut self, markdown: Option<&Path>, json: Option<&Path>) -> Result<()> {
-        self.loads.extend(machine::load_average());
+        self.loads.extend(load_average());
         let loads: Vec<String> = self.loads.iter().map(|load| format!("{load:.1}")).collect();
         let seconds = self.start.elapsed().as_secs_f64();
         let mut last = format!("\nThe whole run took {seconds:.0} s.");

@@ -8,6 +8,17 @@ use std::time::Duration;
 
 use anyhow::Result;
 
+/// How often and on how much to measure.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Effort {
+    /// Timed runs of everything.
+    pub(crate) rounds: usize,
+    /// Lookups a run on the GPU.
+    pub(crate) gpu_lookups: usize,
+    /// Lookups a run on the CPU.
+    pub(crate) cpu_lookups: usize,
+}
+
 /// One thing to time.
 pub(crate) struct Trial<'a> {
     items: f64,

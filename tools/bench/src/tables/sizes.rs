@@ -7,10 +7,8 @@ use vtex_baker::{BakeConfig, Resources};
 use vtex_format::{Image, Limits, SectionInfo, Tag, directory};
 use vtex_shaders::{PackOptions, pack};
 
-use crate::raster::RASTER_SIZE;
-use crate::rasterise::{parse, render};
-use crate::subject::{name, read};
-use crate::table::{Cell, Table};
+use crate::report::{Cell, Table};
+use crate::subject::{RASTER_SIZE, name, parse, read, render};
 
 /// Bytes of one MSDF of \[SFG22\]: 512 x 512 texels of three bytes, one a shape.
 const SFG22_SHAPE_BYTES: u64 = 512 * 512 * 3;

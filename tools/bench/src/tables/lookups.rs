@@ -8,13 +8,9 @@ use vtex_shaders::cpu::{LookupCost, Sampler};
 use vtex_shaders::layout::BatchQuery;
 use vtex_shaders::{BindingSlot, FilterMode, PackOptions, fragment, spec_key_with};
 
-use crate::clock::{Timing, Trial, interleave};
-use crate::device::{Device, Kernel};
-use crate::queries::QuerySet;
-use crate::raster::{CpuRaster, RASTER_SIZE, hardware_kernel};
-use crate::rivals::Effort;
-use crate::subject::{FILTERS, Subject};
-use crate::table::{Cell, Table};
+use crate::report::{Cell, Table};
+use crate::subject::{CpuRaster, FILTERS, RASTER_SIZE, Subject, hardware_kernel};
+use crate::timing::{Device, Effort, Kernel, QuerySet, Timing, Trial, interleave};
 
 /// One table a query set; rows are files, the raster is the baseline.
 pub(crate) fn gpu_tables(
@@ -134,7 +130,7 @@ fn vtex_kernel(device: &Device, subject: &Subject, filter: FilterMode) -> Kernel
             binding: 0,
         },
     );
-    let bridge = include_str!("wgsl/vtex.wgsl");
+    let bridge = include_str!("../wgsl/vtex.wgsl");
     device.kernel(&[&evaluator, bridge].concat(), &[words.as_entire_binding()])
 }
 

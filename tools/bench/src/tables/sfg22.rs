@@ -1,6 +1,6 @@
 //! The method of \[SFG22\]: dense MSDF layers, every one read at every lookup.
 
-use crate::device::{Device, Kernel};
+use crate::timing::{Device, Kernel};
 
 /// \[SFG22\]'s own size of a layer.
 pub(crate) const LAYER_SIZE: u32 = 512;
@@ -50,7 +50,7 @@ impl Layers {
             self.paints.as_entire_binding(),
             params.as_entire_binding(),
         ];
-        let wgsl = include_str!("wgsl/sfg22.wgsl");
+        let wgsl = include_str!("../wgsl/sfg22.wgsl");
         (count <= self.count).then(|| device.kernel(wgsl, &resources))
     }
 }
@@ -59,7 +59,7 @@ impl Layers {
 pub(crate) fn fetch_texture_kernel(device: &Device) -> Kernel {
     let view = field_texture(device, 1).create_view(&wgpu::TextureViewDescriptor::default());
     let view = wgpu::BindingResource::TextureView(&view);
-    device.kernel(include_str!("wgsl/fetch_texture.wgsl"), &[view])
+    device.kernel(include_str!("../wgsl/fetch_texture.wgsl"), &[view])
 }
 
 /// Steps of a tile along a cell in [`fetch_buffer_kernel`]. 511 = 7 * 73: tiles then hold the
@@ -71,7 +71,7 @@ pub(crate) fn fetch_buffer_kernel(device: &Device) -> Kernel {
     let words = tiled(&field(0));
     let words = device.buffer(bytemuck::cast_slice(&words), wgpu::BufferUsages::STORAGE);
     device.kernel(
-        include_str!("wgsl/fetch_buffer.wgsl"),
+        include_str!("../wgsl/fetch_buffer.wgsl"),
         &[words.as_entire_binding()],
     )
 }

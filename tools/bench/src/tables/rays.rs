@@ -8,12 +8,9 @@ use vtex_format::{CellWord, Entry, EntryKind, Grid, Image, SpecKey, VtexFile};
 use vtex_runtime::{LoadOptions, Scene, TraceOptions, Tracer, scene};
 use vtex_scenes::showroom;
 
-use crate::clock::{Trial, interleave};
-use crate::device::Device;
-use crate::rasterise::rasterise;
-use crate::rivals::Effort;
-use crate::subject::{Subject, read};
-use crate::table::{Cell, Table};
+use crate::report::{Cell, Table};
+use crate::subject::{Subject, rasterise, read};
+use crate::timing::{Device, Effort, Trial, interleave};
 
 /// The film. Small, since a software driver does about a million rays a second.
 const FILM: [u32; 2] = [240, 160];

@@ -2,26 +2,13 @@
 
 use anyhow::{Result, ensure};
 
-use crate::clock::{Trial, interleave};
-use crate::device::{Device, Kernel};
-use crate::queries::{QuerySet, Screen};
-use crate::raster::{RASTER_SIZE, halves_kernel, hardware_kernel, synthetic};
-use crate::sfg22::{self, LAYER_COUNTS, LAYER_SIZE};
-use crate::table::{Cell, Table};
+use super::sfg22::{self, LAYER_COUNTS, LAYER_SIZE};
+use crate::report::{Cell, Table};
+use crate::subject::{RASTER_SIZE, halves_kernel, hardware_kernel, synthetic};
+use crate::timing::{Device, Effort, Kernel, QuerySet, Screen, Trial, interleave};
 
 /// Texels of the mip chains compared when minified: the baker's default.
 const MIP0_SIZE: u32 = 512;
-
-/// How often and on how much to measure.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Effort {
-    /// Timed runs of everything.
-    pub(crate) rounds: usize,
-    /// Lookups a run on the GPU.
-    pub(crate) gpu_lookups: usize,
-    /// Lookups a run on the CPU.
-    pub(crate) cpu_lookups: usize,
-}
 
 /// Kernels with their names; the first is the baseline.
 type Named = Vec<(String, Kernel)>;
@@ -197,7 +184,7 @@ fn nothing_kernel(device: &Device) -> Kernel {
     let tint = [1.0_f32; 4];
     let tint = device.buffer(bytemuck::cast_slice(&tint), wgpu::BufferUsages::UNIFORM);
     device.kernel(
-        include_str!("wgsl/nothing.wgsl"),
+        include_str!("../wgsl/nothing.wgsl"),
         &[tint.as_entire_binding()],
     )
 }

@@ -1,9 +1,10 @@
 //! The baseline: a raster texture with its mip chain, on the CPU and through the sampler.
 
 use vtex_format::Image;
+use vtex_shaders::cpu::color::decode_channel;
 use vtex_shaders::layout::BatchQuery;
 
-use crate::device::{Device, Kernel};
+use crate::timing::{Device, Kernel};
 
 /// Side of the raster that a vector texture replaces: 64 MiB before its mips.
 pub(crate) const RASTER_SIZE: u32 = 4096;
@@ -66,7 +67,7 @@ pub(crate) fn hardware_kernel(device: &Device, image: &Image) -> Kernel {
     });
     let view = wgpu::BindingResource::TextureView(&view);
     let sampler = wgpu::BindingResource::Sampler(&sampler);
-    device.kernel(include_str!("wgsl/hardware.wgsl"), &[view, sampler])
+    device.kernel(include_str!("../wgsl/hardware.wgsl"), &[view, sampler])
 }
 
 fn upload(device: &Device, image: &Image) -> wgpu::Texture {
@@ -111,7 +112,7 @@ pub(crate) fn halves_kernel(device: &Device, image: &Image) -> Kernel {
     let words = halves_words(image);
     let words = device.buffer(bytemuck::cast_slice(&words), wgpu::BufferUsages::STORAGE);
     device.kernel(
-        include_str!("wgsl/halves.wgsl"),
+        include_str!("../wgsl/halves.wgsl"),
         &[words.as_entire_binding()],
     )
 }
@@ -208,16 +209,9 @@ fn linear(decode: &[f32; 256], [r, g, b, a]: [u8; 4]) -> [f32; 4] {
     [color[0], color[1], color[2], f32::from(a) / 255.0]
 }
 
-/// Linear light of the bytes, IEC 61966-2-1.
+/// Linear light of the 256 encoded bytes.
 pub(crate) fn decode_table() -> [f32; 256] {
-    std::array::from_fn(|byte| {
-        let encoded = byte as f32 / 255.0;
-        if encoded <= 0.04045 {
-            encoded / 12.92
-        } else {
-            ((encoded + 0.055) / 1.055).powf(2.4)
-        }
-    })
+    std::array::from_fn(|byte| decode_channel(byte as f32 / 255.0))
 }
 
 #[cfg(test)]
