@@ -34,7 +34,6 @@ pub(super) const EXEMPTIONS: &[Exemption] = &[
     circle("shaders/src", "#10", EVALUATOR),
     size("shaders/src/cpu", "#10", EVALUATOR),
     size("shaders/wgsl/vtex", "#10", EVALUATOR),
-    size("tools/bench/src", "#9", "the bench gets rooms"),
 ];
 
 const EVALUATOR: &str = "the evaluator is merged by concept";
