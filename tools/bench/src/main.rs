@@ -1,4 +1,4 @@
-//! `vtex-bench`: how long bakes, lookups and rays take on this machine, beside their rivals.
+//! `vtex-bench`: how long bakes, lookups and rays take on this machine, compared with their rivals.
 
 mod report;
 mod subject;
@@ -14,37 +14,37 @@ use crate::report::Report;
 use crate::subject::{Subject, find, system_fonts};
 use crate::timing::{Device, Effort, Machine};
 
-/// Times bake stages, lookups a second per filter mode and rays a second, and prints the machine
-/// and the adapter.
+/// Times the stages of bakes, lookups per second by filter mode, and rays per second, and prints the
+/// machine and the adapter they ran on.
 ///
-/// Run it as `cargo run --release -p vtex-bench`. Everything in a table is measured in turn within
-/// each round, after one warm-up run that also compiles shaders. A figure is the median of the
-/// rounds with its range in brackets; `x` is its ratio to the table's baseline, the median of the
-/// ratios within rounds. On a busy or shared machine trust the ratios.
+/// Run it as `cargo run --release -p vtex-bench`. After one warm-up run, which also compiles the
+/// shaders, each round runs all trials of a table once, in turn. A figure is the median of the
+/// rounds with its range in brackets; `x` is its speed as a multiple of the table's baseline: the
+/// median of the ratios within rounds. On a busy or shared machine rely on the ratios only.
 #[derive(Debug, Parser)]
 #[command(version)]
 struct Args {
-    /// SVG files; without any, the samples of `tests/data/svg/paper` and, where the folder exists,
-    /// those of `paper5` in the corpus (`VTEX_CORPUS`, else `../shared/corpus`).
+    /// SVG files. The default is the samples of `tests/data/svg/paper` and, if there is a corpus
+    /// (`VTEX_CORPUS`, else `../shared/corpus`), its folder `paper5`.
     files: Vec<PathBuf>,
-    /// Only these parts.
+    /// Measure only these parts.
     #[arg(long, value_delimiter = ',')]
     only: Vec<Part>,
-    /// Timed runs of everything after the warm-up.
+    /// Rounds after the warm-up.
     #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..))]
     rounds: u16,
-    /// Lookups a run on the GPU, in units of 2^18 (one 512 x 512 window).
+    /// Lookups per run on the GPU, in units of 2^18 (one window of 512 x 512).
     #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..=16))]
     windows: u16,
-    /// Writes the tables as Markdown.
+    /// Write the tables as Markdown.
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
-    /// Does nothing but rasterise the one file to this PNG at 4096 pixels along its longer side, on one
-    /// thread, and print the milliseconds of parsing, rendering, encoding and writing: the rival of
-    /// `processes`.
+    /// Only rasterise the one SVG file to this PNG, with 4096 pixels along its longer side and on one
+    /// thread, and print the milliseconds of parsing, rendering, encoding and writing. The part
+    /// `processes` runs this program so, as the rival of `vtex bake`.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["only", "markdown", "json"])]
     png: Option<PathBuf>,
-    /// Writes everything as JSON.
+    /// Write everything as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 }
@@ -60,10 +60,10 @@ enum Part {
     Gpu,
     /// Rays of the path tracer.
     Rays,
-    /// Bytes of each file beside those of its rivals.
+    /// Bytes of each file and of its rivals.
     Sizes,
-    /// Whole processes: `vtex bake`, which must have been built beside this program, and resvg to a
-    /// PNG. Only when asked for.
+    /// Whole processes: `vtex bake`, which must be built in the same folder as this program, and
+    /// resvg to a PNG. Not part of the default.
     Processes,
 }
 

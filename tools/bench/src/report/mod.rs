@@ -1,4 +1,4 @@
-//! Collects tables, prints them as they come and writes them to files at the end.
+//! Collects tables, prints each when it is complete, and writes all to files at the end.
 
 mod table;
 
@@ -58,7 +58,7 @@ impl Report {
         tables.into_iter().try_for_each(|table| self.add(table))
     }
 
-    /// Prints how busy the machine was and writes what was asked for.
+    /// Prints how busy the machine was, and writes the files that the command line names.
     pub(crate) fn finish(mut self, markdown: Option<&Path>, json: Option<&Path>) -> Result<()> {
         self.loads.extend(load_average());
         let loads: Vec<String> = self.loads.iter().map(|load| format!("{load:.1}")).collect();

@@ -1,4 +1,4 @@
-//! Tables for people (Markdown, padded so that it reads in a terminal too) and for programs.
+//! Tables as Markdown, padded so that they can be read in a terminal, and as JSON.
 
 use std::fmt::Write as _;
 
@@ -53,7 +53,7 @@ impl Cell {
     }
 }
 
-/// Three figures that count, no more.
+/// Digits after the point that leave three significant ones.
 fn digits_for(value: f64) -> usize {
     match value.abs() {
         v if v >= 100.0 => 0,
@@ -63,7 +63,7 @@ fn digits_for(value: f64) -> usize {
     }
 }
 
-/// A titled table with the remarks needed to read it.
+/// A table with a title and notes on how to read it.
 #[derive(Clone, Debug)]
 pub(crate) struct Table {
     title: String,

@@ -1,4 +1,4 @@
-//! One SVG file to measure with: baked, and as the raster texture it stands for.
+//! One SVG file to measure with: baked, and as the raster texture that it replaces.
 
 mod raster;
 mod rasterise;
@@ -19,7 +19,7 @@ use crate::timing::{QuerySet, Screen};
 pub(crate) use raster::{CpuRaster, RASTER_SIZE, halves_kernel, hardware_kernel, synthetic};
 pub(crate) use rasterise::{parse, rasterise, render};
 
-/// Sides of the lattice of points that judge how busy a window is.
+/// Points along each side of a window at which its cost is probed.
 const PROBES: u16 = 24;
 
 /// The filter modes with the names that columns use.
@@ -29,7 +29,7 @@ pub(crate) const FILTERS: [(&str, FilterMode); 3] = [
     ("paper", FilterMode::Paper),
 ];
 
-/// One SVG with what was baked of it.
+/// One SVG with its bake and its raster texture.
 #[derive(Debug)]
 pub(crate) struct Subject {
     /// File name without its ending.
@@ -63,8 +63,8 @@ impl Subject {
         })
     }
 
-    /// Columns of the lookup tables: magnified all over the canvas, magnified where it is busiest,
-    /// as a whole at 1x, and magnified at random points.
+    /// The query sets of the lookup tables: 8x all over the canvas, 8x where lookups cost most, the
+    /// whole canvas at 1x, and 8x at random points.
     pub(crate) fn query_sets(&self, lookups: usize) -> [QuerySet; 4] {
         [
             self.screen.tour(lookups),
@@ -136,7 +136,7 @@ fn svg_files(folder: &Path) -> Vec<PathBuf> {
     paths
 }
 
-/// Corner of the 8x window whose lookups walk the most entries and segments; ties go to the first.
+/// Corner of the 8x window whose lookups visit the most entries and segments; the first of equals.
 fn busiest(file: &VtexFile, screen: Screen) -> [f32; 2] {
     let words = pack(file, &PackOptions::default());
     let sampler = Sampler::new(&words);

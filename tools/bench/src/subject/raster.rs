@@ -1,4 +1,4 @@
-//! The baseline: a raster texture with its mip chain, on the CPU and through the sampler.
+//! The baseline: a raster texture with mips, looked up on the CPU and by the sampler of the GPU.
 
 use vtex_format::Image;
 use vtex_shaders::cpu::color::decode_channel;
@@ -39,7 +39,7 @@ pub(crate) fn synthetic(size: u32) -> Image {
     }
 }
 
-/// A square level of half the side. The mean is of encoded values: good enough for a clock.
+/// A square level of half the side. It averages encoded values: timing does not depend on colours.
 fn halved(finer: &[u8], side: u32) -> Vec<u8> {
     let (side, half) = (side as usize, side as usize / 2);
     let byte = |i: usize| {

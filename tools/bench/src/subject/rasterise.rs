@@ -20,8 +20,7 @@ pub(crate) fn rasterise(svg: &[u8], resources: &Resources, longer_side: u32) -> 
     Ok(with_mips([pixmap.width(), pixmap.height()], &pixmap))
 }
 
-/// The SVG as resvg has it, with the faces a bake chooses; what it refers to outside itself is not
-/// loaded.
+/// Parses the SVG as resvg does, with the fonts that a bake chooses and without outside images.
 pub(crate) fn parse(svg: &[u8], resources: &Resources) -> Result<usvg::Tree> {
     let image_href_resolver = usvg::ImageHrefResolver {
         resolve_string: Box::new(|_, _| None),
@@ -124,7 +123,7 @@ impl Transfer {
         self.encode[step.min(ENCODE_STEPS - 1)]
     }
 
-    /// Means of two by two texels; a side of one texel, or the last of an odd side, stands twice.
+    /// Means of 2 x 2 texels; a side of one texel is repeated.
     fn halved(&self, finer: &[u8], from: [usize; 2], to: [usize; 2]) -> Vec<u8> {
         let mut coarser = Vec::with_capacity(4 * to[0] * to[1]);
         for y in 0..to[1] {

@@ -1,4 +1,4 @@
-//! Lookups a second of vector textures beside the raster textures they replace.
+//! Lookups per second of vector textures, and of the raster textures they replace.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -12,7 +12,7 @@ use crate::report::{Cell, Table};
 use crate::subject::{CpuRaster, FILTERS, RASTER_SIZE, Subject, hardware_kernel};
 use crate::timing::{Device, Effort, Kernel, QuerySet, Timing, Trial, interleave};
 
-/// One table a query set; rows are files, the raster is the baseline.
+/// One table for each query set. Rows are files, and the raster is the baseline.
 pub(crate) fn gpu_tables(
     device: &Device,
     subjects: &[Subject],
@@ -134,7 +134,7 @@ fn vtex_kernel(device: &Device, subject: &Subject, filter: FilterMode) -> Kernel
     device.kernel(&[&evaluator, bridge].concat(), &[words.as_entire_binding()])
 }
 
-/// Answers all queries on `threads` threads and says how long that took.
+/// Answers all queries on `threads` threads and returns how long that took.
 fn spread(
     queries: &[BatchQuery],
     threads: usize,

@@ -1,4 +1,4 @@
-//! Whole processes side by side: baking a file, and resvg making a raster of it.
+//! Whole processes side by side: `vtex bake`, and resvg rasterising the same file.
 
 use std::fs;
 use std::io::Write as _;
@@ -16,8 +16,8 @@ use crate::timing::{Spread, Trial, interleave};
 /// What the rival prints, in this order.
 const RIVAL_STAGES: [&str; 4] = ["parse", "render", "encode", "write"];
 
-/// The rival's whole work: parse, render, encode, write. System fonts are loaded, as a bake does,
-/// only where there may be text.
+/// The whole work of the rival: parse, render, encode, write. Like a bake it loads the system fonts
+/// only when the file may hold text.
 pub(crate) fn rasterise_to_png(svg: &Path, png: &Path) -> Result<()> {
     let mut marks = vec![Instant::now()];
     let bytes = read(svg)?;

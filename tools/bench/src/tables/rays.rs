@@ -1,4 +1,4 @@
-//! Rays a second of the path tracer with and without textures.
+//! Rays per second of the path tracer, with and without textures.
 
 use std::time::{Duration, Instant};
 
@@ -12,9 +12,9 @@ use crate::report::{Cell, Table};
 use crate::subject::{Subject, rasterise, read};
 use crate::timing::{Device, Effort, Trial, interleave};
 
-/// The film. Small, since a software driver does about a million rays a second.
+/// Size of the film: small, since a software driver traces about a million rays per second.
 const FILM: [u32; 2] = [240, 160];
-/// Samples a pixel in a run.
+/// Samples per pixel in a run.
 const SAMPLES: u32 = 4;
 /// Longer side of the raster textures. Four of them at 2048, as half floats with their mips, exceed
 /// a binding of core WebGPU.

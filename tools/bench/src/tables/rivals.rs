@@ -1,4 +1,4 @@
-//! Ways to look up a texture that do not depend on a file: what the design was weighed against.
+//! Other ways to look up a texture, which the design was weighed against. They need no file.
 
 use anyhow::{Result, ensure};
 
@@ -133,7 +133,7 @@ fn lookups_table(
     Ok(table)
 }
 
-/// Largest difference of two kernels in any channel: rivals must answer the same question.
+/// Largest difference of two kernels in any channel. Only rivals with the same answer can be compared.
 fn disagreement(device: &Device, kernels: [&Kernel; 2], sets: &[QuerySet]) -> Result<f32> {
     let mut worst = 0.0_f32;
     for set in sets {
@@ -149,10 +149,10 @@ fn disagreement(device: &Device, kernels: [&Kernel; 2], sets: &[QuerySet]) -> Re
     Ok(worst)
 }
 
-/// Whether kernels ask what the CPU asks: same points in the same order.
+/// Checks that kernels look up the same points in the same order as the CPU.
 ///
 /// # Errors
-/// When they do not; every figure would compare different work.
+/// When they do not: figures would compare different work.
 pub(crate) fn check_queries(device: &Device) -> Result<()> {
     let kernel = nothing_kernel(device);
     let screen = Screen::new([3.0, 2.0]);

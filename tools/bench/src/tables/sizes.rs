@@ -1,4 +1,4 @@
-//! Bytes of a file beside those of what it replaces.
+//! Bytes of a file, and of what it replaces.
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +12,7 @@ use crate::subject::{RASTER_SIZE, name, parse, read, render};
 
 /// Bytes of one MSDF of \[SFG22\]: 512 x 512 texels of three bytes, one a shape.
 const SFG22_SHAPE_BYTES: u64 = 512 * 512 * 3;
-/// The larger of the zooms that sizes are told for.
+/// The larger of the two zooms that files are baked for.
 const HIGH_ZOOM: f32 = 256.0;
 
 /// Groups of sections, the columns of the second table.
@@ -28,7 +28,7 @@ const GROUPS: [(&str, &[Tag]); 6] = [
     ),
 ];
 
-/// What each file takes beside its rivals, and by sections.
+/// Sizes of each file and of its rivals, and sizes of its sections.
 pub(crate) fn size_tables(files: &[PathBuf], resources: &Resources) -> Result<Vec<Table>> {
     let raster = format!("raster {RASTER_SIZE}^2");
     let png = format!("{raster} as PNG");

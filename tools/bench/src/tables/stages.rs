@@ -1,4 +1,4 @@
-//! Where the time of a bake goes.
+//! How long each stage of a bake takes.
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;

@@ -1,8 +1,8 @@
-//! Timing of several things side by side.
+//! Timing several trials side by side.
 //!
-//! Shared machines drift by tens of percent within seconds, so nothing is timed alone: one round
-//! runs every trial once, and a ratio is the median of the ratios within the rounds, where both
-//! sides saw the same weather.
+//! The speed of a shared machine drifts by tens of percent within seconds, so that two figures that
+//! were measured one after the other cannot be compared. Here one round runs every trial once, and
+//! a ratio is the median of the ratios within rounds: both of its sides saw the same machine.
 
 use std::time::Duration;
 
@@ -26,7 +26,7 @@ pub(crate) struct Trial<'a> {
 }
 
 impl<'a> Trial<'a> {
-    /// A trial that times itself and does `items` lookups, rays or the like a run.
+    /// A trial that measures its own time and does `items` lookups, rays or the like per run.
     pub(crate) fn timed(items: usize, run: impl FnMut() -> Result<Duration> + 'a) -> Self {
         Self {
             items: items as f64,
@@ -35,7 +35,8 @@ impl<'a> Trial<'a> {
     }
 }
 
-/// Seconds of one trial, one value a round; timings of one call share their rounds.
+/// Seconds of one trial, one value per round. Timings from one call of [`interleave`] have the same
+/// rounds.
 #[derive(Clone, Debug)]
 pub(crate) struct Timing {
     items: f64,
@@ -73,7 +74,7 @@ pub(crate) struct Spread {
 }
 
 impl Spread {
-    /// Of no values: all NaN.
+    /// All fields are NaN when there are no values.
     pub(crate) fn of(values: impl Iterator<Item = f64>) -> Self {
         let mut values: Vec<f64> = values.collect();
         values.sort_by(f64::total_cmp);

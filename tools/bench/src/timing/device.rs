@@ -1,4 +1,4 @@
-//! The adapter, and kernels timed on it.
+//! The GPU adapter, and timing kernels on it.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -10,7 +10,7 @@ use wgpu::util::DeviceExt as _;
 
 use super::queries::QuerySet;
 
-/// A 32-bit copy destination that mapping wants: two timestamps of 8 bytes.
+/// Bytes of two timestamps.
 const STAMPS_BYTES: u64 = 16;
 
 /// A device with the limits of core WebGPU.
@@ -54,8 +54,8 @@ impl Device {
             device,
             queue,
         } = Gpu::headless()?;
-        // The runtime drops errors it does not expect; here each is a broken kernel of our own,
-        // and what it would time is nothing.
+        // The runtime ignores errors it does not expect. Here such an error means that a kernel is
+        // broken, and timing it would measure nothing.
         device.on_uncaptured_error(Arc::new(|error| panic!("{error}")));
         let has_timestamps = device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
         let stamps = has_timestamps.then(|| Stamps::new(&device, &queue));
@@ -102,7 +102,8 @@ impl Device {
         }
     }
 
-    /// Compiles `wgsl`, which gives `bench_sample`; its group 0 is bound to `resources` in order.
+    /// Compiles `wgsl`, which must define `bench_sample`. Its group 0 is bound to `resources`, in
+    /// order.
     pub(crate) fn kernel(&self, wgsl: &str, resources: &[wgpu::BindingResource<'_>]) -> Kernel {
         let source = [include_str!("../wgsl/root.wgsl"), wgsl].concat();
         let module = self
@@ -154,7 +155,7 @@ impl Device {
             })
     }
 
-    /// Runs a kernel over a batch and says how long the GPU took.
+    /// Runs a kernel over a batch and returns how long the GPU took.
     pub(crate) fn time(&self, kernel: &Kernel, batch: &Batch) -> Result<Duration> {
         let buffers = [
             batch.queries.as_entire_binding(),

@@ -1,7 +1,7 @@
 //! The lookups that every rival answers: same points, same footprints, same order.
 //!
-//! Kernels make their own queries from a few numbers (`wgsl/root.wgsl`), as a tracer has them in
-//! registers; reading them from memory would cost more than the cheaper lookups.
+//! Kernels compute their queries from a few numbers (`wgsl/root.wgsl`), since a tracer has them in
+//! registers too. Reading them from memory would cost more than the cheaper lookups.
 
 use vtex_shaders::layout::BatchQuery;
 
@@ -11,7 +11,7 @@ const WINDOW_PX: u32 = 512;
 const TILE_PX: u32 = 8;
 /// Tiles along a block: 64 pixels.
 const BLOCK_TILES: u32 = 8;
-/// One block in so many, along both axes, is part of a frame of [`Screen::tour`].
+/// Along both axes one block out of this many is part of a frame of [`Screen::tour`].
 const TOUR_STRIDE: u32 = 8;
 /// Magnification of the close windows: a pixel is a texel of a 4096^2 raster.
 const CLOSE_ZOOM: f32 = 8.0;
@@ -24,7 +24,7 @@ pub(crate) struct QuerySet {
     /// Short, for a column.
     pub(crate) name: &'static str,
     pub(crate) record: QueryRecord,
-    /// How often the pixels are gone over, each time jittered anew.
+    /// How often each pixel is looked up, each time with another jitter.
     frames: u32,
 }
 

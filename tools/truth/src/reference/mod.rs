@@ -1,12 +1,20 @@
 //! The truth: resvg with crisp edges, supersampled, averaged in linear light.
 //!
-//! resvg draws the SVG about 16 times as fine as wanted with anti-aliasing off, so every fine pixel
-//! is an exact point sample at its centre; the 257 of a pixel are averaged in linear light,
-//! premultiplied. They lie on a turned pattern (`sample_pattern.rs`): on one along the axes a
-//! vertical edge is in one of 16 places, and beside black that alone costs 50 of 255 codes. The
-//! scale is exact: uv \[0, 1\] maps to the picture's edges in both directions, whatever the
-//! rounding of the canvas' size to whole pixels. Strokes of plain drawings are expanded at the scale
-//! of the picture (`plain.rs`).
+//! **Crisp edges.** resvg draws the SVG about 16 times as fine as wanted, with anti-aliasing off, so
+//! that every fine pixel is an exact point sample at its centre. resvg's own anti-aliasing would be
+//! no truth: it blends sRGB-encoded colours, and its coverage comes from four rows in
+//! a pixel.
+//!
+//! **Supersampling.** The samples of a pixel are averaged in linear light, premultiplied. They lie
+//! on a turned grid (`sample_pattern.rs`), 257 in a pixel: with an upright grid of 16 x 16 a
+//! vertical edge has only 16 different places in a pixel, and next to black a step from one to the
+//! next is up to 50 of 255 sRGB codes. Filters, patterns and images depend on the axes, so drawings
+//! that have some are drawn upright, with 256 samples.
+//!
+//! **Scale.** uv \[0, 1\] maps exactly to the picture's edges in both directions, even where the
+//! proportions of the picture are not quite those of the canvas because its size is whole pixels.
+//!
+//! **Strokes** of plain drawings are expanded at the scale of the picture (`plain.rs`).
 
 mod plain;
 mod sample_pattern;
@@ -25,7 +33,8 @@ use sample_pattern::SamplePattern;
 
 /// Samples along each side of a pixel in [`Reference::render`].
 pub const SUPERSAMPLES: u32 = 16;
-/// Fine pixels a tile's side has, about: 16 MiB a tile, whatever the picture's size.
+/// Fine pixels along a tile's side, roughly. A picture is drawn in tiles of 16 MiB, so that its size
+/// does not decide how much memory a thread needs.
 const TILE_FINE_PX: u32 = 2048;
 
 /// Edges in the rendering of [`Reference`].
@@ -41,9 +50,9 @@ pub enum Edges {
 #[derive(Debug)]
 pub struct Reference {
     tree: usvg::Tree,
-    /// The same drawing where it is paths only.
+    /// The same drawing, if it consists of paths in solid colours only.
     plain: Option<PlainPaths>,
-    /// Whether resvg draws the tree turned as it draws it upright.
+    /// Whether the drawing looks the same when it is drawn turned.
     turns: bool,
 }
 
@@ -51,7 +60,7 @@ impl Reference {
     /// Parses an SVG (or gzipped SVG). Outside images are not loaded.
     ///
     /// # Errors
-    /// When it is not an SVG; the message is usvg's, the caller names the file.
+    /// usvg's message, when it is not an SVG. The caller knows the name of the file.
     pub fn parse(svg: &[u8], fonts: Arc<fontdb::Database>, edges: Edges) -> Result<Self, String> {
         let mut options = usvg::Options {
             fontdb: fonts,
@@ -61,9 +70,9 @@ impl Reference {
             options.shape_rendering = usvg::ShapeRendering::CrispEdges;
             options.text_rendering = usvg::TextRendering::OptimizeSpeed;
         }
-        // usvg's own resolver reads any local file an SVG names.
+        // usvg's own resolver would read any local file that the SVG names.
         options.image_href_resolver.resolve_string = Box::new(|_, _| None);
-        // Glyphs of another face would be compared otherwise.
+        // The same faces as a bake chooses; with others, glyphs would differ.
         options.font_resolver.select_font = vtex_baker::font_selector();
         let tree = usvg::Tree::from_data(svg, &options).map_err(|error| error.to_string())?;
         let plain = match edges {
@@ -142,7 +151,7 @@ impl Reference {
         self.draw(None, View::WHOLE, size_px, [0, 0], size_px, &upright)
     }
 
-    /// Plain paths in the fine pixels of a picture.
+    /// The plain paths in fine pixels of the picture; `None` where resvg has to draw.
     fn outlines(&self, view: View, size_px: [u32; 2], pattern: &SamplePattern) -> Option<Outlines> {
         let plain = self.plain.as_ref()?;
         let affine = self.fine_from_canvas(view, size_px, [0, 0], size_px, pattern);
@@ -163,7 +172,7 @@ impl Reference {
         let extent = view.extent();
         let corner = [view.u0, view.v0];
         let size = size_px.map(f64::from);
-        // Canvas to pixels of the tile, along each axis.
+        // From the canvas to pixels of the tile, along each axis.
         let scale = [0, 1].map(|axis| size[axis] / (canvas[axis] * extent[axis]));
         let shift = [0, 1]
             .map(|axis| -corner[axis] / extent[axis] * size[axis] - f64::from(origin_px[axis]));
@@ -196,8 +205,8 @@ impl Reference {
     }
 }
 
-/// Whether resvg draws `tree` turned by some degrees as it draws it upright: filters, patterns and
-/// images are resampled or taken along the axes.
+/// Whether `tree` looks the same when resvg draws it turned by some degrees. Filters, patterns and
+/// images do not: resvg works along the axes of the picture or resamples there.
 fn turns(tree: &usvg::Tree) -> bool {
     tree.filters().is_empty() && tree.patterns().is_empty() && !holds_image(tree.root())
 }

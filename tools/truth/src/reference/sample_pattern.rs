@@ -2,15 +2,17 @@
 
 use std::ops::Range;
 
-/// Samples of a picture, as pixels of a finer picture.
+/// The samples of a picture, as pixels of a finer picture.
 ///
-/// Turned, with `n` samples along a side: the finer picture is turned by `atan(1 / n)` against the
-/// wanted one and `sqrt(n^2 + 1)` times as fine, so that a step of one pixel is the step `(n, -1)`
-/// there. So every pixel has the same `n^2 + 1` samples, no two of them in one column or row.
-/// (A rank-1 lattice; Sloan and Joe 1994.)
+/// The finer picture of a turned pattern with `n` samples along a side is turned by `atan(1 / n)`
+/// against the wanted picture and `sqrt(n^2 + 1)` times as fine: a step of one wanted pixel is the
+/// step `(n, -1)` there. Since that is a whole number of fine pixels, all pixels have the same
+/// `n^2 + 1` samples at the same places, and no two of them share a column or row of the wanted
+/// picture: a vertical or horizontal edge has `n^2 + 1` different places, not `n`. (A rank-1
+/// lattice; Sloan and Joe 1994.)
 #[derive(Clone, Debug)]
 pub(crate) struct SamplePattern {
-    /// Of the map from pixels to the finer picture, `((n, t), (-t, n))`: `t` is 1 or 0.
+    /// The matrix from pixels to fine pixels is `((n, t), (-t, n))`; `t` is 1 if turned, else 0.
     n: u32,
     t: u32,
     /// Rows and columns of the samples of pixel (0, 0).
@@ -38,10 +40,11 @@ impl SamplePattern {
         pattern
     }
 
-    /// Whether the centre of a fine pixel lies in pixel (0, 0), left and top edge included.
+    /// Whether the centre of a fine pixel lies in pixel (0, 0). Its left and top edges belong to it,
+    /// its right and bottom edges to the next pixels, so that no sample counts twice.
     fn in_first_pixel(&self, column: i64, row: i64) -> bool {
         let [n, t] = [self.n, self.t].map(i64::from);
-        // Twice the centre, so that all is integer.
+        // Twice the centre, so that all numbers are integers and the comparison is exact.
         let [x, y] = [2 * column + 1, 2 * row + 1];
         let side = 0..2 * (n * n + t * t);
         side.contains(&(n * x - t * y)) && side.contains(&(t * x + n * y))
@@ -93,7 +96,7 @@ impl SamplePattern {
     ) -> impl Iterator<Item = (usize, Range<usize>)> {
         let column = i64::from(self.n * x + self.t * y);
         let row = i64::from(self.n * y + self.t * tile_px[0]) - i64::from(self.t * x);
-        // Not negative: the finer picture holds all samples of its tile.
+        // Never negative, since the finer picture holds all samples of its tile.
         let index = |place: i64| usize::try_from(place).unwrap_or_default();
         self.runs.iter().map(move |(at, columns)| {
             let columns = index(column + columns.start)..index(column + columns.end);

@@ -1,4 +1,4 @@
-//! Bakes kept by what they were made from.
+//! A cache of bakes: a folder of files named by the hash of what they were baked from.
 
 use std::path::{Path, PathBuf};
 
@@ -8,17 +8,17 @@ use vtex_format::{Limits, VtexFile};
 use crate::cli::Outcome;
 use crate::files::{input, output};
 
-/// A folder of bakes, each named by the hash of source, options, fonts and tool version.
+/// A folder of bakes. The name of each is the hash of SVG, options, fonts and version of this tool.
 #[derive(Debug)]
 pub(crate) struct Cache {
     folder: PathBuf,
 }
 
 impl Cache {
-    /// Opens the folder and makes it when it is missing.
+    /// Opens the folder, or creates it.
     ///
     /// # Errors
-    /// When it cannot be made.
+    /// When it cannot be created.
     pub(crate) fn open(folder: &Path) -> Outcome<Self> {
         output::create_folder(folder)?;
         Ok(Self {
@@ -26,10 +26,11 @@ impl Cache {
         })
     }
 
-    /// The name under which a bake is kept.
+    /// The name of a bake in the folder, without extension.
     pub(crate) fn key(svg: &[u8], config: &BakeConfig, fonts: &str) -> String {
         let mut hasher = blake3::Hasher::new();
-        // Debug text names every option and every bit of every number.
+        // The Debug text holds every option, also those added later, and prints every number so
+        // that it reads back to the same bits.
         for part in [
             env!("CARGO_PKG_VERSION").as_bytes(),
             format!("{config:?}").as_bytes(),
@@ -45,7 +46,7 @@ impl Cache {
         hasher.finalize().to_hex().to_string()
     }
 
-    /// The bake kept under `key`; `None` when there is none or it is damaged.
+    /// The bake named `key`; `None` when there is none or it is damaged.
     pub(crate) fn get(&self, key: &str) -> Option<(VtexFile, Vec<u8>)> {
         let bytes = input::read(&self.path(key)).ok()?;
         let file = VtexFile::parse(&bytes, &Limits::default()).ok()?;

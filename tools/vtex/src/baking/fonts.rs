@@ -1,4 +1,4 @@
-//! Fonts for text, loaded once and only when a drawing may need them.
+//! Fonts for text: loaded once, and only when a drawing may hold text.
 
 use std::sync::{Arc, OnceLock};
 
@@ -15,13 +15,13 @@ pub(crate) struct FontLibrary {
 }
 
 impl FontLibrary {
-    /// Remembers what is wanted; nothing is loaded yet.
+    /// Stores which fonts to load; loads none yet.
     ///
     /// # Errors
     /// When a font folder does not exist.
     pub(crate) fn new(wanted: Fonts) -> Outcome<Self> {
         if let Some(missing) = wanted.font_dir.iter().find(|dir| !dir.is_dir()) {
-            let message = format!("{}: there is no such font folder", missing.display());
+            let message = format!("{}: this font folder does not exist", missing.display());
             return Err(Failure::new(ExitCode::Io, message));
         }
         Ok(Self {
@@ -30,7 +30,7 @@ impl FontLibrary {
         })
     }
 
-    /// The fonts, or none when `svg` holds no text.
+    /// The fonts, or an empty database when `svg` holds no text: system fonts take long to scan.
     pub(crate) fn for_svg(&self, svg: &[u8]) -> Arc<fontdb::Database> {
         if may_hold_text(svg) {
             self.load()
@@ -39,8 +39,8 @@ impl FontLibrary {
         }
     }
 
-    /// What a bake of `svg` hangs on besides the SVG, for cache keys: the faces by name, place
-    /// and size of their files.
+    /// The fonts that a bake of `svg` may use, as text for cache keys: name, path and file size of
+    /// each face.
     pub(crate) fn fingerprint(&self, svg: &[u8]) -> String {
         let fonts = self.for_svg(svg);
         let mut faces: Vec<String> = fonts.faces().map(describe).collect();
@@ -64,8 +64,9 @@ impl FontLibrary {
     }
 }
 
-/// Lets `serif`, `sans-serif` and so on, and every family that is missing, mean a face that is
-/// there. fontdb's own names are those of Windows.
+/// Maps the generic families (`serif`, `sans-serif`, ...) to installed fonts. usvg also takes
+/// `serif` for every family that is missing. fontdb's own defaults name fonts of Windows, which
+/// other systems lack.
 fn name_generic_families(fonts: &mut fontdb::Database) {
     let present = |names: &[&str]| {
         let named = |name: &&&str| {
@@ -111,7 +112,7 @@ fn describe(face: &fontdb::FaceInfo) -> String {
     format!("{} {} {place}", face.post_script_name, face.index)
 }
 
-/// Gzipped drawings may hold anything.
+/// Whether an SVG may hold text. Gzipped files are not unpacked for this and count as yes.
 fn may_hold_text(svg: &[u8]) -> bool {
     svg.starts_with(&[0x1f, 0x8b]) || svg.windows(4).any(|window| window == b"text")
 }

@@ -1,4 +1,4 @@
-//! Images in files that an SVG names: read only below folders that the user allowed.
+//! Image files that an SVG names: read only from the folders that the user allowed.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -11,13 +11,13 @@ use vtex_baker::ImageReader;
 use super::wire::Summary;
 use crate::cli::{ExitCode, Failure, Outcome};
 
-/// Largest image file that is read.
+/// Largest image file that is read; larger ones are left out with a warning.
 const MAX_IMAGE_BYTES: u64 = 256 << 20;
 
-/// Folders below which images may be read.
+/// Folders whose images may be read, also from folders inside them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ImageFolders {
-    /// With links resolved.
+    /// Absolute, links resolved.
     folders: Arc<Vec<PathBuf>>,
 }
 
@@ -30,7 +30,7 @@ impl ImageFolders {
         let resolve = |folder: &PathBuf| match fs::canonicalize(folder) {
             Ok(resolved) if resolved.is_dir() => Ok(resolved),
             _ => {
-                let message = format!("{}: there is no such image folder", folder.display());
+                let message = format!("{}: this image folder does not exist", folder.display());
                 Err(Failure::new(ExitCode::Io, message))
             }
         };
@@ -40,8 +40,8 @@ impl ImageFolders {
         })
     }
 
-    /// Images of the SVG at `path`, whose references are relative to its folder; those of
-    /// standard input to the current one.
+    /// Images of the SVG at `path`. References are relative to its folder, and to the current folder
+    /// for an SVG from standard input.
     pub(crate) fn near(&self, path: &Path) -> SvgImages {
         SvgImages {
             folders: Arc::clone(&self.folders),
@@ -51,7 +51,7 @@ impl ImageFolders {
     }
 }
 
-/// Images that one SVG names.
+/// The images that one SVG names.
 #[derive(Debug)]
 pub(crate) struct SvgImages {
     folders: Arc<Vec<PathBuf>>,
@@ -66,7 +66,7 @@ struct Seen {
 }
 
 impl SvgImages {
-    /// What the baker reads them with; `None` when no folder is allowed.
+    /// The reader that the baker calls; `None` when no folder is allowed.
     pub(crate) fn reader(&self) -> Option<ImageReader> {
         if self.folders.is_empty() {
             return None;
@@ -86,7 +86,7 @@ impl SvgImages {
         }))
     }
 
-    /// Adds what was read to the summary of the bake.
+    /// Adds the files that were read to the summary of the bake.
     pub(crate) fn tell(&self, summary: &mut Summary) {
         let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
         summary.names_files = seen.named;
@@ -94,12 +94,12 @@ impl SvgImages {
     }
 }
 
-/// The file behind a reference, with every link and `..` resolved before it is compared with the
-/// allowed folders.
+/// The file that a reference means. Links and `..` are resolved before the path is compared with
+/// the allowed folders, so that neither leads out of them.
 fn find(reference: &str, base: &Path, folders: &[PathBuf]) -> Result<PathBuf, String> {
     let path = local_path(reference)?;
-    // The same words for what is missing and what is not allowed: an SVG must not find out what
-    // else there is on this machine.
+    // One message for files that are missing and files that are not allowed: otherwise an SVG could
+    // find out which files exist on this machine.
     let refused = || "no such file below a folder of --allow-images".to_owned();
     let file = fs::canonicalize(base.join(path)).map_err(|_| refused())?;
     if folders.iter().any(|folder| file.starts_with(folder)) {
@@ -109,7 +109,7 @@ fn find(reference: &str, base: &Path, folders: &[PathBuf]) -> Result<PathBuf, St
     }
 }
 
-/// The path that a URL reference means.
+/// The path in a URL reference.
 fn local_path(reference: &str) -> Result<PathBuf, String> {
     let path = match reference.split_once("://") {
         Some((scheme, rest)) if scheme.eq_ignore_ascii_case("file") => {
@@ -118,7 +118,7 @@ fn local_path(reference: &str) -> Result<PathBuf, String> {
         Some(_) => return Err("nothing is read from the network".to_owned()),
         None => reference,
     };
-    // `//host/x` is a host in a URL, and on Windows a file on another machine.
+    // `//host/x` names a host in a URL, and on Windows a file on another machine.
     let slashes = |c: char| matches!(c, '/' | '\\');
     if path.starts_with(slashes) && path[1..].starts_with(slashes) {
         return Err("nothing is read from the network".to_owned());
@@ -126,7 +126,8 @@ fn local_path(reference: &str) -> Result<PathBuf, String> {
     Ok(PathBuf::from(percent_decoded(path)))
 }
 
-/// `%20` and so on as the characters they stand for; what is no UTF-8 then stays as it is.
+/// Replaces `%20` and so on by the characters they stand for; returns the text unchanged when the
+/// result is not UTF-8.
 fn percent_decoded(text: &str) -> String {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();
@@ -157,7 +158,7 @@ fn hex(digit: u8) -> Option<u8> {
 
 fn read(path: &Path) -> Result<Vec<u8>, String> {
     let cannot = |error: std::io::Error| format!("cannot read: {error}");
-    // Pipes and devices have no end, or none soon.
+    // Reading a pipe or a device may never end.
     if !fs::metadata(path).map_err(cannot)?.is_file() {
         return Err("not a file".to_owned());
     }

@@ -1,18 +1,19 @@
-//! A bound of the memory this process may take, set by itself.
+//! A limit on the memory of this process, set by the process itself.
 
 use crate::cli::{Failure, Outcome};
 
-/// Lets this process take `bytes` in all, stacks included; what asks for more ends it. Also keeps
-/// such an end from writing a core dump.
+/// Limits this process to `bytes` of memory, stacks included. An allocation beyond that fails, and
+/// Rust aborts the process. Core dumps are switched off, since an abort is expected here.
 ///
 /// # Errors
 /// When the system refuses the limit.
 #[cfg(unix)]
 pub(crate) fn limit(bytes: u64) -> Outcome<()> {
     use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
-    // Linux counts private writable memory as "data": what a bake allocates, without the fonts
-    // that are mapped from files and without the allocator's untouched reserves. Elsewhere "data"
-    // leaves mapped memory out, so the address space has to serve.
+    // On Linux the "data" limit counts private writable memory: what a bake allocates, but neither
+    // font files that are mapped read-only nor address space that the allocator only reserved.
+    // On other systems "data" does not count mapped memory, which allocators use, so the whole
+    // address space is limited there.
     const MEMORY: Resource = if cfg!(target_os = "linux") {
         Resource::Data
     } else {
@@ -20,7 +21,7 @@ pub(crate) fn limit(bytes: u64) -> Outcome<()> {
     };
     for (resource, wanted) in [(MEMORY, bytes), (Resource::Core, 0)] {
         let there = getrlimit(resource);
-        // A tighter limit of our caller stays.
+        // A lower limit that the caller has set stays.
         let lower = |limit: Option<u64>| Some(limit.map_or(wanted, |limit| limit.min(wanted)));
         let limit = Rlimit {
             current: lower(there.current),
@@ -32,7 +33,7 @@ pub(crate) fn limit(bytes: u64) -> Outcome<()> {
     Ok(())
 }
 
-/// Does nothing: this system has no such limit that a process can set itself.
+/// Does nothing: on this system a process cannot limit its own memory.
 ///
 /// # Errors
 /// None.

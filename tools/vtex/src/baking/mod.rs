@@ -36,13 +36,13 @@ pub(crate) fn config(options: &BakeOptions) -> BakeConfig {
     });
     BakeConfig {
         mode,
-        error_px: options.error.unwrap_or(default.error_px),
-        max_zoom: options.max_zoom.unwrap_or(default.max_zoom),
-        mip0_size: options.size.unwrap_or(default.mip0_size),
-        msdf_size: options.msdf_size.unwrap_or(default.msdf_size),
+        error_px: options.error,
+        max_zoom: options.max_zoom,
+        mip0_size: options.size,
+        msdf_size: options.msdf_size,
         merge: options.merge,
         mask: options.mask,
-        smoothing: options.smoothing.unwrap_or(default.smoothing),
+        smoothing: options.smoothing,
         outline_texels: options.outline,
         fill_color: options.fill_color.map(|color| color.0),
         stroke_color: options.stroke_color.map(|color| color.0),
@@ -54,10 +54,10 @@ pub(crate) fn config(options: &BakeOptions) -> BakeConfig {
     }
 }
 
-/// Bakes the SVG read from `path` in this process, without bounds of time and memory.
+/// Bakes the SVG read from `path` in this process, without limits on time and memory.
 ///
 /// # Errors
-/// By whose fault it is: the file's, an option's, a budget's, or ours.
+/// With an exit code by cause: the file, an option, a limit, or a bug of ours.
 pub(crate) fn bake(
     path: &Path,
     svg: &[u8],
@@ -72,7 +72,7 @@ pub(crate) fn bake(
     bake_with(path, svg, config, &resources, observer)
 }
 
-/// As [`bake`], with images besides fonts.
+/// As [`bake`], with image files.
 ///
 /// # Errors
 /// As [`bake`].
@@ -84,7 +84,7 @@ pub(crate) fn bake_with(
     observer: &(dyn Fn(Stage) + Sync),
 ) -> Outcome<VtexFile> {
     let bake = || vtex_baker::bake_observed(svg, config, resources, observer);
-    // One drawing that trips a defect must not take the others of a folder with it.
+    // A bug that one drawing triggers must not stop the bakes of the others.
     match catch_unwind(AssertUnwindSafe(bake)) {
         Ok(baked) => baked.map_err(|error| failure(path, &error)),
         Err(panic) => Err(panicked(&format!("{}: baking", path.display()), &*panic)),
@@ -104,7 +104,7 @@ fn failure(path: &Path, error: &BakeError) -> Failure {
 /// The bytes of a baked file.
 ///
 /// # Errors
-/// When the baker made a file that breaks its own format.
+/// When the file breaks the rules of its own format, which is a bug of the baker.
 pub(crate) fn to_bytes(path: &Path, file: &VtexFile) -> Outcome<Vec<u8>> {
     let run = |count, job: &(dyn Fn(usize) + Sync)| (0..count).into_par_iter().for_each(job);
     file.to_bytes_by(&run)

@@ -1,5 +1,5 @@
-//! What `vtex bake` and its workers say to each other over pipes: a message is a line of JSON,
-//! followed by as many raw bytes as it announces.
+//! Messages between `vtex bake` and its workers, over pipes: a line of JSON, followed by as many raw
+//! bytes as the line announces.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, Read, Write};
@@ -11,53 +11,53 @@ use vtex_format::{VtexFile, Warning};
 
 use crate::cli::Failure;
 
-/// Bytes of a line: far above any list of warnings, far below what would fill the reader's memory
-/// should the writer run wild.
+/// Most bytes of a line: far more than any list of warnings needs, and few enough that a broken
+/// writer cannot fill the memory of the reader.
 const MAX_LINE_BYTES: u64 = 64 << 20;
 
 /// To a worker: bake the SVG that follows.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct Request {
-    /// Where the SVG was read from, for messages and for what it names. The type keeps names that
-    /// are no Unicode.
+    /// Path of the SVG, for messages and for relative references in it. An `OsString`, since paths
+    /// need not be Unicode.
     pub(crate) path: OsString,
     /// Bytes of the SVG.
     pub(crate) svg_bytes: u64,
 }
 
-/// From a worker: any number of details, then one of the others.
+/// From a worker: any number of `Detail`, then one `Baked` or `Failed`.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) enum Reply {
-    /// What is being done, for `--verbose`.
+    /// The step that begins, for `--verbose`.
     Detail(String),
     /// The bake is done; its bytes follow.
     Baked {
         /// How many bytes follow.
         bytes: u64,
-        /// What they are.
+        /// What the bake made.
         summary: Summary,
     },
-    /// There is no bake.
+    /// The bake failed.
     Failed(Failure),
 }
 
-/// What is told about a bake.
+/// What the command reports about a bake.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Summary {
     /// Number of shapes.
     pub(crate) shapes: usize,
     /// Number of layers.
     pub(crate) layers: usize,
-    /// What was approximated or left out.
+    /// Features of the SVG that were approximated or left out.
     pub(crate) warnings: Vec<Warning>,
-    /// Files besides the SVG that were read.
+    /// Other files that the bake read.
     pub(crate) files: Vec<OsString>,
-    /// Whether the SVG names files, so that the bake hangs on more than the SVG's bytes.
+    /// Whether the SVG names files. Then its own bytes do not determine the bake.
     pub(crate) names_files: bool,
 }
 
 impl Summary {
-    /// Of a file for which no others were read.
+    /// The summary of a bake that read no other files.
     pub(crate) fn of(file: &VtexFile) -> Self {
         Self {
             shapes: file.shapes.len(),
@@ -70,7 +70,7 @@ impl Summary {
         }
     }
 
-    /// Files besides the SVG that were read.
+    /// Other files that the bake read.
     pub(crate) fn paths(&self) -> Vec<PathBuf> {
         self.files.iter().map(PathBuf::from).collect()
     }
@@ -79,7 +79,7 @@ impl Summary {
 /// Writes one message.
 ///
 /// # Errors
-/// When the reader is gone.
+/// When the pipe is closed.
 pub(crate) fn send(to: &mut impl Write, message: &impl Serialize, bytes: &[u8]) -> io::Result<()> {
     let mut line = serde_json::to_vec(message)?;
     line.push(b'\n');
@@ -91,7 +91,7 @@ pub(crate) fn send(to: &mut impl Write, message: &impl Serialize, bytes: &[u8]) 
 /// Reads one message without the bytes that follow it.
 ///
 /// # Errors
-/// When the writer is gone, or what comes is no message.
+/// When the pipe is closed, or the line is no message of type `T`.
 pub(crate) fn receive<T: DeserializeOwned>(from: &mut impl BufRead) -> io::Result<T> {
     let mut line = Vec::new();
     from.take(MAX_LINE_BYTES).read_until(b'\n', &mut line)?;
@@ -104,7 +104,7 @@ pub(crate) fn receive<T: DeserializeOwned>(from: &mut impl BufRead) -> io::Resul
 /// Reads the `count` bytes that follow a message.
 ///
 /// # Errors
-/// When the writer is gone.
+/// When the pipe is closed before that.
 pub(crate) fn receive_bytes(from: &mut impl Read, count: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     from.take(count).read_to_end(&mut bytes)?;

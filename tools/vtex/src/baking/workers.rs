@@ -1,5 +1,10 @@
-//! Bakes in other processes, each with a bound of time and memory, so that a drawing that hangs,
-//! aborts or exhausts memory is one failed file and nothing else.
+//! Bakes in separate processes with limits on time and memory, so that a drawing that hangs, aborts
+//! or exhausts memory makes one file fail and nothing else.
+//!
+//! The two limits are enforced from two sides. A worker limits its own memory before the first bake
+//! (`memory.rs`); the system then refuses an allocation past the limit and Rust aborts the process.
+//! The parent limits the time: a thread beside each conversation kills the worker when its answer
+//! is late.
 
 use std::ffi::OsString;
 use std::io::{self, BufReader, Read};
@@ -15,7 +20,7 @@ use super::wire::{self, Reply, Request, Summary};
 use crate::cli::args::Budget;
 use crate::cli::{ExitCode, Failure, Outcome};
 
-/// Bytes of a dead worker's last words that are looked at.
+/// Most bytes of a dead worker's standard error that are read to find out why it died.
 const MAX_LAST_WORDS: u64 = 4096;
 
 /// A bake that a worker made.
@@ -23,22 +28,22 @@ const MAX_LAST_WORDS: u64 = 4096;
 pub(crate) struct WorkersBake {
     /// The bytes of the file.
     pub(crate) bytes: Vec<u8>,
-    /// What they are.
+    /// What the bake made, in numbers, and its warnings.
     pub(crate) summary: Summary,
 }
 
-/// Processes that bake one drawing after another. One that dies is replaced.
+/// Processes that each bake one drawing after another. A process that dies is replaced.
 #[derive(Debug)]
 pub(crate) struct Workers {
-    /// Arguments that make this program a worker.
+    /// Arguments with which this program runs as a worker.
     arguments: Vec<OsString>,
     budget: Budget,
     idle: Mutex<Vec<Worker>>,
 }
 
 impl Workers {
-    /// Workers with `threads` threads each; none is started yet. They take their options from the
-    /// command line of this process.
+    /// Workers with `threads` threads each; none is started yet. A worker gets the command line of
+    /// this process and takes the options of the bake from it.
     pub(crate) fn new(budget: Budget, threads: usize) -> Self {
         let head = ["--threads", &threads.to_string(), "worker", "--"].map(OsString::from);
         Self {
@@ -54,7 +59,7 @@ impl Workers {
     /// Bakes the SVG read from `path`; callable from several threads at once.
     ///
     /// # Errors
-    /// What the baker says; that it took too long or too much memory; that it ended otherwise.
+    /// When the bake fails, exceeds its time or memory, or its process dies of something else.
     pub(crate) fn bake(
         &self,
         path: &Path,
@@ -64,8 +69,8 @@ impl Workers {
         let idle = self.locked().pop();
         if let Some(worker) = idle {
             match self.ask(worker, path, svg, detail) {
-                // Earlier drawings may have left their marks on its memory: this one gets a whole
-                // budget before it is blamed.
+                // Earlier drawings may have left this process little free memory. Before the
+                // drawing is blamed it gets a fresh process with the whole budget.
                 Err(Death::Memory | Death::Other(_)) => {}
                 other => return other.unwrap_or_else(|death| Err(self.failure(path, &death))),
             }
@@ -75,7 +80,7 @@ impl Workers {
             .unwrap_or_else(|death| Err(self.failure(path, &death)))
     }
 
-    /// Has one worker bake, and keeps it if it survives.
+    /// Sends one drawing to a worker, and keeps the worker for the next if it survives.
     fn ask(
         &self,
         mut worker: Worker,
@@ -111,22 +116,25 @@ impl Workers {
                 ExitCode::Limit,
                 "limit exceeded: nested too deeply".to_owned(),
             ),
-            Death::Other(how) => (ExitCode::Runtime, format!("the bake ended early: {how}")),
+            Death::Other(how) => (
+                ExitCode::Runtime,
+                format!("the process that baked it ended early: {how}"),
+            ),
         };
         Failure::new(code, format!("{}: {text}", path.display()))
     }
 }
 
-/// How a worker came to its end.
+/// Why a worker died.
 #[derive(Debug)]
 enum Death {
-    /// We ended it, for its time was over.
+    /// We killed it because its time was over.
     Time,
-    /// It was refused memory.
+    /// The system refused it memory.
     Memory,
     /// A thread ran out of stack.
     Stack,
-    /// In words.
+    /// Something else, in words.
     Other(String),
 }
 
@@ -158,7 +166,7 @@ impl Worker {
         }
     }
 
-    /// Has one drawing baked. A worker that has not answered after `time` is killed.
+    /// Sends one drawing and waits for the answer. Kills the worker if there is none after `time`.
     fn bake(
         &mut self,
         path: &Path,
@@ -174,7 +182,7 @@ impl Worker {
             scope.spawn(move || {
                 if watched.recv_timeout(time) == Err(RecvTimeoutError::Timeout) {
                     late.store(true, Ordering::Relaxed);
-                    // It fails only when the worker is gone already.
+                    // This fails only when the worker has already ended.
                     let _ = child.kill();
                 }
             });
@@ -182,25 +190,26 @@ impl Worker {
             drop(answered);
             answer
         });
-        // The end of the scope orders the store before this load.
+        // Relaxed is enough: the end of the scope joins the thread that stores.
         if late.load(Ordering::Relaxed) {
             return Err(Death::Time);
         }
         answer.map_err(|error| self.autopsy(&error))
     }
 
-    /// Why the conversation broke off.
+    /// Why the worker stopped answering.
     fn autopsy(&mut self, error: &io::Error) -> Death {
-        // Its pipes may be shut a moment before it is gone; if it is not on its way, it goes now.
+        // A dying process closes its pipes a moment before its exit status can be read.
         let status = self.wait_or_kill();
         let mut words = Vec::new();
         if let Some(stderr) = self.child.stderr.take() {
-            // No last words are no reason to fail.
+            // Without text the exit status alone has to tell.
             let _ = stderr.take(MAX_LAST_WORDS).read_to_end(&mut words);
         }
         let words = String::from_utf8_lossy(&words);
-        // Its own exit code when the SVG does not fit; else the words of Rust's runtime, which
-        // gives no other sign of what it aborts for.
+        // The worker exits with `Limit` itself when the SVG does not fit into its memory. Later
+        // allocations that fail abort the process, and so does a stack overflow; the text that
+        // Rust's runtime prints is the only sign of which it was.
         let no_room = status.and_then(|s| s.code()) == Some(ExitCode::Limit as i32);
         if no_room || words.contains("memory allocation of") {
             Death::Memory
@@ -226,7 +235,7 @@ impl Worker {
 
 impl Drop for Worker {
     fn drop(&mut self) {
-        // It holds nothing that is worth a clean end; waiting leaves no zombie.
+        // A worker has nothing to clean up. Waiting for it leaves no zombie behind.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use vtex_baker::BakeConfig;
 use vtex_truth::comparison::WINDOWS;
 use vtex_truth::picture::View;
 use vtex_truth::texture::FilterMode;
@@ -11,7 +12,7 @@ use vtex_truth::texture::FilterMode;
 use super::Format;
 use super::values::{Color, Matrix, Size, color, matrix, size, view};
 
-/// Bake, look into, check, preview and render vector textures.
+/// Bake SVG drawings into vector textures (.vtex), and inspect, check, compare and render them.
 #[derive(Debug, Parser)]
 #[command(name = "vtex", version, about, max_term_width = 100, after_help = EXIT_CODES)]
 pub(crate) struct Cli {
@@ -23,13 +24,14 @@ pub(crate) struct Cli {
     pub(crate) global: Global,
 }
 
-const EXIT_CODES: &str = "Exit codes: 0 ok, 1 usage, 2 input/output, 3 invalid input file, \
-    4 failure at run time, 5 unsupported, 7 difference found, 8 limit";
+const EXIT_CODES: &str = "Exit codes: 0 success, 1 wrong command line, 2 a file cannot be read or \
+    written, 3 invalid input file, 4 failure at run time, 5 unsupported, 7 difference found, 8 limit \
+    exceeded";
 
 /// Settings of all commands.
 #[derive(Clone, Copy, Debug, Args)]
 pub(crate) struct Global {
-    /// How results are written to standard output
+    /// Format of the results on standard output
     #[arg(
         long,
         global = true,
@@ -38,13 +40,13 @@ pub(crate) struct Global {
         value_name = "FORMAT"
     )]
     pub(crate) format: Format,
-    /// Say nothing but failures
+    /// Print only failures
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     pub(crate) quiet: bool,
-    /// Say what is being done, and every warning
+    /// Also print details of the work, and all warnings
     #[arg(short, long, global = true)]
     pub(crate) verbose: bool,
-    /// Threads to use; 0 means one for each core
+    /// Number of threads; 0 uses one per core
     #[arg(long, global = true, default_value_t = 0, value_name = "N")]
     pub(crate) threads: usize,
 }
@@ -52,46 +54,47 @@ pub(crate) struct Global {
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Bake SVG into .vtex
+    /// Bake SVG files into .vtex files
     #[command(after_help = PROCESSES)]
     Bake(Box<Bake>),
-    /// Say what is in a .vtex file
+    /// Print what a .vtex file contains
     Info(Info),
-    /// Check .vtex files; numbered issues
+    /// Check .vtex files and print numbered issues
     Validate(Validate),
-    /// Shoot a picture of a .vtex file
+    /// Write a picture of a .vtex file as PNG
     Preview(Preview),
-    /// Measure a .vtex file against its SVG at several zooms
+    /// Measure how far a .vtex file is from its SVG at several zooms
     #[command(after_help = METRICS)]
     Compare(Compare),
-    /// Write layers, mips, a heat map of the cells and the shader as files
+    /// Write the parts of a .vtex file as files: layers, mips, heat maps of the cells, shader
     Extract(Extract),
-    /// Path-trace textures: one on a plane, several in a showroom
+    /// Path-trace textures: one on a plane, several on objects in a showroom
     Render(Render),
-    /// Bake SVG files and write a page that compares SVG, vtex and raster
+    /// Bake SVG files and write a page that compares SVG, .vtex and raster
     #[command(hide = true)]
     Demo(Demo),
-    /// Bake what comes over standard input, for `vtex bake`
+    /// Bake the drawings that `vtex bake` sends over standard input
     #[command(hide = true)]
     Worker(Worker),
 }
 
-const PROCESSES: &str = "Files are baked in processes of their own, --threads of them at a time. A \
-    process that takes longer than --timeout for one file or more than --max-memory is ended: the \
-    file gets exit code 8, the others are baked all the same.";
+const PROCESSES: &str = "Each file is baked in a separate process, at most --threads of them at a \
+    time. A process that needs more time than --timeout or more memory than --max-memory is stopped: \
+    its file fails with exit code 8, and the other files are still baked.";
 
-const METRICS: &str = "The truth is resvg without anti-aliasing at 257 samples a pixel, \
-    averaged in linear light. Both pictures are laid over white in linear light and sRGB-encoded; \
-    PSNR is over their R, G and B, a pixel is wrong when a channel differs by more than 8 of 255. \
-    At zooms above 1 four windows at edges of the drawing are measured and the worst counts.";
+const METRICS: &str = "The truth is the SVG, drawn by resvg without anti-aliasing at 257 samples \
+    per pixel (256 for drawings with filters, patterns or images) that are averaged in linear light. \
+    Both pictures are composited over white in linear light and then sRGB-encoded. PSNR is taken over \
+    R, G and B. A pixel is wrong if one of its channels differs by more than 8 of 255. At a zoom above \
+    1, --windows windows at edges of the drawing are compared, and the worst one counts.";
 
 /// Fonts for text.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct Fonts {
-    /// Folder with fonts for text, searched before the system's; may be given several times
+    /// Folder with fonts for text, searched before the system fonts; repeat for more folders
     #[arg(long, value_name = "DIR")]
     pub(crate) font_dir: Vec<PathBuf>,
-    /// Do not look at the system's fonts, so that every machine bakes the same
+    /// Ignore the system fonts, so that every machine bakes the same bytes
     #[arg(long)]
     pub(crate) no_system_fonts: bool,
 }
@@ -99,36 +102,37 @@ pub(crate) struct Fonts {
 /// `vtex bake`.
 #[derive(Debug, Args)]
 pub(crate) struct Bake {
-    /// SVG or gzipped SVG files, folders (searched for .svg and .svgz), globs, or -
+    /// SVG files, plain or gzipped; folders, searched for .svg and .svgz; globs; - for standard input
     #[arg(required = true, value_name = "IN")]
     pub(crate) inputs: Vec<PathBuf>,
-    /// File, folder, or - for standard output
+    /// Output file or folder; - for standard output
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: PathBuf,
-    /// What the bake may do.
+    /// What the bake makes.
     #[command(flatten)]
     pub(crate) options: BakeOptions,
-    /// Write nothing: compare with the files that are there, exit with 7 when one differs
+    /// Write nothing: compare with the existing outputs, and exit with 7 if one is missing or differs
     #[arg(long)]
     pub(crate) check: bool,
-    /// Write what each output depends on, as a Makefile
+    /// Write the dependencies of each output as Makefile rules
     #[arg(long, value_name = "FILE")]
     pub(crate) depfile: Option<PathBuf>,
-    /// Keep bakes here and take them from here when source, options and version are the same
+    /// Keep bakes in DIR, and reuse them while SVG, options, fonts and version are the same
     #[arg(long, value_name = "DIR")]
     pub(crate) cache_dir: Option<PathBuf>,
-    /// What one file may use up.
+    /// Limits for each file.
     #[command(flatten)]
     pub(crate) budget: Budget,
 }
 
-/// What the bake of one file may use up: it runs in a process of its own.
+/// Limits for the process that bakes one file.
 #[derive(Clone, Copy, Debug, Args)]
 pub(crate) struct Budget {
-    /// Longest that one file may take; past it the exit code is 8
+    /// Time limit for one file; a file that exceeds it fails with exit code 8
     #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=604_800))]
     pub(crate) timeout: u32,
-    /// Most memory that one file may take; past it the exit code is 8. Not enforced on Windows
+    /// Memory limit for one file; a file that exceeds it fails with exit code 8. Not enforced on
+    /// Windows
     #[arg(long, value_name = "MIB", default_value_t = 2048, value_parser = clap::value_parser!(u32).range(16..=16_777_216))]
     pub(crate) max_memory: u32,
 }
@@ -147,45 +151,46 @@ pub(crate) struct BakeOptions {
     /// How shapes are stored
     #[arg(long, value_enum, default_value_t)]
     pub(crate) mode: BakeMode,
-    /// Largest magnification the geometry is prepared for; 1 shows the canvas at 512 pixels
-    #[arg(long, value_name = "Z")]
-    pub(crate) max_zoom: Option<f32>,
-    /// Pixels at the largest zoom by which a distance field may displace an edge before its shape
-    /// becomes curves
-    #[arg(long, value_name = "PX")]
-    pub(crate) error: Option<f64>,
-    /// Texels of mip 0's longer side
-    #[arg(long, value_name = "N")]
-    pub(crate) size: Option<u32>,
-    /// Texels of the MSDF lattice along the canvas' longer side
-    #[arg(long, value_name = "N")]
-    pub(crate) msdf_size: Option<u32>,
-    /// Put all shapes into one layer, right only when none overlap
+    /// Zoom up to which edges stay sharp; at zoom 1 the canvas' longer side is 512 pixels
+    #[arg(long, value_name = "Z", default_value_t = BakeConfig::default().max_zoom)]
+    pub(crate) max_zoom: f32,
+    /// Largest error of an MSDF edge, in pixels at --max-zoom; shapes with a larger error are stored
+    /// as curves
+    #[arg(long, value_name = "PX", default_value_t = BakeConfig::default().error_px)]
+    pub(crate) error: f64,
+    /// Texels along the longer side of mip 0
+    #[arg(long, value_name = "N", default_value_t = BakeConfig::default().mip0_size)]
+    pub(crate) size: u32,
+    /// MSDF texels along the canvas' longer side
+    #[arg(long, value_name = "N", default_value_t = BakeConfig::default().msdf_size)]
+    pub(crate) msdf_size: u32,
+    /// Put all shapes into one layer; correct only if no shapes overlap
     #[arg(long)]
     pub(crate) merge: bool,
-    /// Store coverage only: lookups return alpha
+    /// Store coverage without colours; lookups return it in all four channels
     #[arg(long)]
     pub(crate) mask: bool,
-    /// Half width of the paper's constant smoothing, in (0, 0.5]
-    #[arg(long, value_name = "S")]
-    pub(crate) smoothing: Option<f32>,
-    /// Outline of WIDTH texels around every shape from its distance field
+    /// Half width of the constant edge smoothing of `--filter paper`, as a share of the MSDF's
+    /// distance range, in (0, 0.5]
+    #[arg(long, value_name = "S", default_value_t = BakeConfig::default().smoothing)]
+    pub(crate) smoothing: f32,
+    /// Draw an outline of WIDTH MSDF texels around every shape
     #[arg(long, value_name = "WIDTH", num_args = 0..=1, default_missing_value = "1")]
     pub(crate) outline: Option<f32>,
-    /// Replace every fill's colour (CSS: #d03020, navy, rgb(1 2 3))
+    /// Replace the colour of every fill by a CSS colour, such as #d03020, navy or rgb(1 2 3)
     #[arg(long, value_name = "COLOR", value_parser = color)]
     pub(crate) fill_color: Option<Color>,
-    /// Replace every stroke's and the outline's colour
+    /// Replace the colour of every stroke, and of --outline, by a CSS colour
     #[arg(long, value_name = "COLOR", value_parser = color)]
     pub(crate) stroke_color: Option<Color>,
-    /// What lookups outside the canvas see
+    /// What a lookup outside the canvas returns [default: clamp]
     #[arg(long, value_enum)]
     pub(crate) address: Option<Address>,
-    /// Texture matrix: u' = a u + c v + e, v' = b u + d v + f
+    /// Texture matrix of lookups: u' = a u + c v + e, v' = b u + d v + f
     #[arg(long, value_name = "a,b,c,d,e,f", value_parser = matrix, allow_hyphen_values = true)]
     pub(crate) transform: Option<Matrix>,
-    /// Also draw images in files at or below DIR that the SVG names; may be given several times.
-    /// Without it, and from the network in any case, they are left out with a warning
+    /// Also draw the image files in DIR and below that the SVG names; repeat for more folders.
+    /// Other image files are left out with a warning. Nothing is loaded from the network
     #[arg(long, value_name = "DIR")]
     pub(crate) allow_images: Vec<PathBuf>,
     /// Fonts for text.
@@ -196,14 +201,14 @@ pub(crate) struct BakeOptions {
 /// How shapes are stored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum BakeMode {
-    /// The best for each shape
+    /// Whatever is best for each shape
     #[default]
     Auto,
-    /// Distance fields
+    /// Multi-channel signed distance fields (MSDF)
     Msdf,
     /// Exact curves
     Curves,
-    /// One raster image with mips
+    /// One raster image of the whole canvas, with mips
     Raster,
 }
 
@@ -212,25 +217,25 @@ pub(crate) enum BakeMode {
 pub(crate) enum Address {
     /// The nearest point of the canvas
     Clamp,
-    /// The canvas again
+    /// The canvas, repeated
     Repeat,
-    /// The canvas mirrored at every turn
+    /// The canvas, repeated with every second copy mirrored
     Mirror,
-    /// Nothing
+    /// Transparent black
     Border,
 }
 
 /// `vtex info`.
 #[derive(Debug, Args)]
 pub(crate) struct Info {
-    /// The .vtex file, or -
+    /// The .vtex file; - for standard input
     pub(crate) file: PathBuf,
 }
 
 /// `vtex validate`.
 #[derive(Debug, Args)]
 pub(crate) struct Validate {
-    /// .vtex files, or -
+    /// .vtex files; - for standard input
     #[arg(required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
 }
@@ -241,10 +246,10 @@ pub(crate) struct Lookup {
     /// How a lookup filters
     #[arg(long, value_enum, default_value_t)]
     pub(crate) filter: Filter,
-    /// Who looks up
+    /// Where lookups run
     #[arg(long, value_enum, default_value_t)]
     pub(crate) backend: Backend,
-    /// Samples a pixel
+    /// Samples per pixel
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub(crate) spp: u32,
 }
@@ -252,12 +257,12 @@ pub(crate) struct Lookup {
 /// How a lookup filters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Filter {
-    /// Hard inside test, the samples smooth
+    /// Hard edges: only the samples of a pixel smooth them
     #[default]
     Point,
-    /// A ramp as wide as the footprint
+    /// Edges smoothed over the width of a sample's footprint
     Footprint,
-    /// Constant smoothing
+    /// Edges smoothed over the constant width of `bake --smoothing`
     Paper,
 }
 
@@ -271,28 +276,28 @@ impl From<Filter> for FilterMode {
     }
 }
 
-/// Who looks up.
+/// Where lookups run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Backend {
-    /// The evaluator in Rust, needs no GPU
+    /// On the CPU, without a GPU
     #[default]
     Cpu,
-    /// The evaluator in WGSL on the best adapter, or the one named by `VTEX_ADAPTER`
+    /// On the best GPU adapter, or on the one that `VTEX_ADAPTER` names
     Gpu,
 }
 
 /// `vtex preview`.
 #[derive(Debug, Args)]
 pub(crate) struct Preview {
-    /// The .vtex file, or -
+    /// The .vtex file; - for standard input
     pub(crate) file: PathBuf,
-    /// PNG to write, or -
+    /// PNG file to write; - for standard output
     #[arg(short, long, value_name = "PNG")]
     pub(crate) output: PathBuf,
-    /// Pixels: `WxH`, or N for the longer side
+    /// Size in pixels: `WxH`, or N for the longer side
     #[arg(long, default_value = "512", value_parser = size)]
     pub(crate) size: Size,
-    /// Part of the canvas in uv: left, top, right, bottom
+    /// Part of the canvas to show, in uv: left, top, right, bottom
     #[arg(long, value_name = "u0,v0,u1,v1", value_parser = view, allow_hyphen_values = true)]
     pub(crate) view: Option<View>,
     /// How it is looked up.
@@ -303,12 +308,12 @@ pub(crate) struct Preview {
 /// `vtex compare`.
 #[derive(Debug, Args)]
 pub(crate) struct Compare {
-    /// The SVG
+    /// The SVG file
     #[arg(value_name = "IN.svg")]
     pub(crate) svg: PathBuf,
-    /// The .vtex baked from it
+    /// The .vtex file baked from it
     pub(crate) file: PathBuf,
-    /// Zooms to measure at; 1 shows the whole canvas
+    /// Zooms to compare at; zoom 1 shows the whole canvas
     #[arg(
         long,
         value_name = "Z,...",
@@ -316,27 +321,27 @@ pub(crate) struct Compare {
         default_value = "1,8,32,256"
     )]
     pub(crate) zoom: Vec<f64>,
-    /// Pixels of the pictures' longer side
+    /// Pixels along the longer side of the pictures
     #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(8..=8192))]
     pub(crate) size: u32,
     /// How it is looked up.
     #[command(flatten)]
     pub(crate) lookup: Lookup,
-    /// Exit with 7 when a zoom's PSNR is below X dB
+    /// Exit with 7 if the PSNR at a zoom is below X dB
     #[arg(long, value_name = "X")]
     pub(crate) min_psnr: Option<f64>,
-    /// Windows that each zoom above 1 is compared in
+    /// Number of windows to compare at each zoom above 1
     #[arg(long, value_name = "N", default_value_t = WINDOWS, value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub(crate) windows: u32,
-    /// Also tell the truth's own noise: the PSNR of half the samples along each side of a pixel
-    /// against all, in the worst window of each zoom
+    /// Also print the noise of the truth in the worst window of each zoom: its PSNR against the
+    /// truth with half as many samples along each side of a pixel
     #[arg(long)]
     pub(crate) noise: bool,
-    /// Also write a page with pictures: SVG, vtex, raster 4096
+    /// Also write an HTML page that shows SVG, .vtex and a raster of 4096 texels side by side
     #[arg(long, value_name = "DIR")]
     pub(crate) html: Option<PathBuf>,
-    /// Also write the worst window of the worst zoom: svg.png, vtex.png and difference.png, which
-    /// shows differences four times as large
+    /// Also write pictures of the worst window: svg.png, vtex.png and difference.png, where
+    /// differences are amplified four times
     #[arg(long, value_name = "DIR")]
     pub(crate) pictures: Option<PathBuf>,
     /// Fonts for text.
@@ -347,7 +352,7 @@ pub(crate) struct Compare {
 /// `vtex extract`.
 #[derive(Debug, Args)]
 pub(crate) struct Extract {
-    /// The .vtex file, or -
+    /// The .vtex file; - for standard input
     pub(crate) file: PathBuf,
     /// Folder to write into
     #[arg(short, long, value_name = "DIR")]
@@ -357,25 +362,25 @@ pub(crate) struct Extract {
 /// `vtex render`.
 #[derive(Debug, Args)]
 pub(crate) struct Render {
-    /// One .svg or .vtex file for a plane, several for the showroom
+    /// .svg or .vtex files: one is shown on a plane, several on objects in a showroom
     #[arg(required = true, value_name = "SCENE")]
     pub(crate) scene: Vec<PathBuf>,
-    /// .png (tone-mapped sRGB) or .exr (linear) to write
+    /// File to write: .png (sRGB, tone-mapped in the showroom) or .exr (linear)
     #[arg(short, long, value_name = "PNG|EXR")]
     pub(crate) output: PathBuf,
-    /// Pixels: `WxH`, or N for the longer side
+    /// Size in pixels: `WxH`, or N for the longer side
     #[arg(long, default_value = "768", value_parser = size)]
     pub(crate) size: Size,
-    /// Samples a pixel
+    /// Samples per pixel
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub(crate) spp: u32,
-    /// Scatterings of a path
+    /// Most bounces of a path
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=64))]
     pub(crate) bounces: u32,
-    /// Seed of all random numbers
+    /// Seed of the random numbers
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u32,
-    /// Show the showroom even with one file
+    /// Use the showroom even for one file
     #[arg(long)]
     pub(crate) showroom: bool,
     /// Fonts for text.
@@ -392,7 +397,7 @@ pub(crate) struct Demo {
     /// Folder to write into
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: PathBuf,
-    /// Pixels of the pictures' longer side
+    /// Pixels along the longer side of the pictures
     #[arg(long, value_name = "N", default_value_t = 360, value_parser = clap::value_parser!(u32).range(8..=4096))]
     pub(crate) size: u32,
     /// Leave the path-traced picture out

@@ -1,4 +1,4 @@
-//! What the user sees: results on stdout, everything else on stderr.
+//! Output: results on standard output, everything else on standard error.
 
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
@@ -8,34 +8,34 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::{Failure, Outcome};
 
-/// How results are written.
+/// Format of the results.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Format {
-    /// For people.
+    /// Text for people
     #[default]
     Text,
-    /// For programs.
+    /// JSON for programs
     Json,
 }
 
-/// How much is told on stderr.
+/// How much is printed on standard error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Verbosity {
     /// Failures only.
     Quiet,
-    /// Failures, warnings, one line a result.
+    /// Also warnings and one line for each result.
     #[default]
     Normal,
-    /// Also what is being done, and every warning.
+    /// Also details of the work, and all warnings.
     Verbose,
 }
 
-/// Where a command writes to.
+/// Prints what a command has to say.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Console {
-    /// How much is told.
+    /// How much is printed.
     pub(crate) verbosity: Verbosity,
-    /// How results are written.
+    /// Format of the results.
     pub(crate) format: Format,
 }
 
@@ -43,7 +43,7 @@ impl Console {
     /// Writes a result to stdout.
     ///
     /// # Errors
-    /// When stdout cannot be written; a closed pipe is a silent failure.
+    /// When standard output cannot be written. A closed pipe is a silent failure.
     pub(crate) fn result(&self, bytes: &[u8]) -> Outcome<()> {
         let mut stdout = io::stdout().lock();
         stdout
@@ -60,28 +60,28 @@ impl Console {
         self.result(format!("{value:#}\n").as_bytes())
     }
 
-    /// Tells what was done, unless `--quiet`.
+    /// Prints what was done, unless `--quiet`.
     pub(crate) fn note(&self, text: &str) {
         if self.verbosity >= Verbosity::Normal {
             tell(text);
         }
     }
 
-    /// Tells details, with `--verbose`.
+    /// Prints details, with `--verbose`.
     pub(crate) fn detail(&self, text: &str) {
         if self.verbosity >= Verbosity::Verbose {
             tell(text);
         }
     }
 
-    /// Tells of a failure, always.
+    /// Prints a failure, always.
     pub(crate) fn failure(&self, failure: &Failure) {
         if !failure.silent {
             tell(&format!("vtex: {failure}"));
         }
     }
 
-    /// A progress bar over `length` steps that shows itself on a terminal after a second.
+    /// A progress bar over `length` steps. It appears after a second, and only on a terminal.
     pub(crate) fn progress(&self, length: u64, what: &str) -> Progress {
         let wanted = self.verbosity >= Verbosity::Normal && io::stderr().is_terminal();
         let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::hidden());
@@ -99,7 +99,7 @@ impl Console {
     }
 }
 
-/// A bar on stderr; see [`Console::progress`].
+/// A progress bar on standard error; see [`Console::progress`].
 #[derive(Debug)]
 pub(crate) struct Progress {
     bar: ProgressBar,
@@ -108,7 +108,7 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// One step more is done.
+    /// Counts one more step as done.
     pub(crate) fn step(&self) {
         if self.wanted && self.bar.is_hidden() && self.begun.elapsed() > Duration::from_secs(1) {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
@@ -124,6 +124,6 @@ impl Drop for Progress {
 }
 
 fn tell(text: &str) {
-    // Nobody is left to hear that stderr is gone.
+    // When standard error is closed, there is nowhere left to report that.
     let _ = writeln!(io::stderr().lock(), "{text}");
 }

@@ -1,4 +1,4 @@
-//! Why a command failed: exit code, who, where, what to do.
+//! Why a command failed: the exit code and a message.
 
 use std::fmt;
 use std::io;
@@ -12,32 +12,33 @@ use vtex_truth::TruthError;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[repr(u8)]
 pub(crate) enum ExitCode {
-    /// All went well.
+    /// Success.
     Ok = 0,
     /// The command line is wrong.
     Usage = 1,
     /// A file could not be read or written.
     Io = 2,
-    /// An input file is not what it should be.
+    /// An input file is invalid.
     InvalidInput = 3,
-    /// Something that should work did not: GPU, adapter, our own bug.
+    /// A failure at run time: no GPU adapter, a lost device, a bug of ours.
     Runtime = 4,
-    /// A feature that this version does not have.
+    /// A feature that this version does not support.
     Unsupported = 5,
-    /// `compare`, `bake --check`: there is a difference.
+    /// `compare --min-psnr` or `bake --check` found a difference.
     Difference = 7,
-    /// A budget was exceeded, of the drawing, of time or of memory.
+    /// A limit was exceeded: on the drawing, on time or on memory.
     Limit = 8,
 }
 
-/// One failure: one line on stderr and an exit code.
+/// One failure: a line on standard error and an exit code.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Failure {
-    /// What the process returns.
+    /// The exit code of the process, unless another file has a higher one.
     pub(crate) code: ExitCode,
-    /// Where it happened and what to do, without a trailing full stop or newline.
+    /// What happened to which file and what to do about it, without full stop or newline at the
+    /// end.
     pub(crate) message: String,
-    /// Nothing is printed: the reader of our output went away, which is its right.
+    /// Whether to print nothing: the reader of our output has closed the pipe, as `head` does.
     pub(crate) silent: bool,
 }
 
@@ -60,7 +61,7 @@ impl Failure {
         Self::new(ExitCode::Usage, message)
     }
 
-    /// An input file is not what it should be.
+    /// An input file is invalid.
     pub(crate) fn invalid(path: &Path, message: impl fmt::Display) -> Self {
         Self::new(
             ExitCode::InvalidInput,
@@ -79,7 +80,7 @@ impl Failure {
             ExitCode::Io,
             format!("{}: cannot {action}: {error}", path.display()),
         );
-        // `vtex info x | head -1`: whoever reads us has seen enough.
+        // `vtex info x | head -1`: the reader has seen enough, which is no failure.
         if error.kind() == io::ErrorKind::BrokenPipe {
             failure.code = ExitCode::Ok;
             failure.silent = true;

@@ -74,7 +74,7 @@ mod tests {
 
     #[test]
     fn places_in_other_crates_name_crate_and_file() {
-        let registry = "/anywhere/registry/src/index.crates.io-1949cf8c/usvg-0.49.0/src/a.rs";
+        let registry = "/x/.cargo/registry/src/index.crates.io-1949cf8c/usvg-0.49.0/src/a.rs";
         assert_eq!(short(registry), "usvg-0.49.0/src/a.rs");
         assert_eq!(short("baker/src/lib.rs"), "baker/src/lib.rs");
     }

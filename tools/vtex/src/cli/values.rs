@@ -25,7 +25,7 @@ const MAX_SIDE_PX: u32 = 16_384;
 pub(super) fn size(text: &str) -> Result<Size, String> {
     let side = |text: &str| match text.trim().parse() {
         Ok(side @ 1..=MAX_SIDE_PX) => Ok(side),
-        _ => Err(format!("a side is 1 to {MAX_SIDE_PX} pixels")),
+        _ => Err(format!("a side must be 1 to {MAX_SIDE_PX} pixels")),
     };
     match text.split_once(['x', 'X']) {
         Some((width, height)) => Ok(Size::Exact([side(width)?, side(height)?])),
@@ -39,7 +39,7 @@ fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
         .ok()
         .filter(|numbers| numbers.iter().all(|number| number.is_finite()))
         .and_then(|numbers| numbers.try_into().ok())
-        .ok_or_else(|| format!("{N} numbers with commas between are needed"))
+        .ok_or_else(|| format!("expected {N} numbers, separated by commas"))
 }
 
 pub(super) fn view(text: &str) -> Result<View, String> {
@@ -47,7 +47,7 @@ pub(super) fn view(text: &str) -> Result<View, String> {
     if u0 < u1 && v0 < v1 {
         Ok(View { u0, v0, u1, v1 })
     } else {
-        Err("left must be below right and top below bottom".to_owned())
+        Err("left must be less than right, and top less than bottom".to_owned())
     }
 }
 

@@ -15,10 +15,12 @@ use crate::{baking, texture};
 
 /// Runs `vtex render`.
 pub(super) fn run(args: Render, console: Console) -> Outcome<ExitCode> {
-    // Before minutes of tracing, not after them.
+    // Checked before tracing, which takes minutes.
     if !["png", "exr"].contains(&extension(&args.output).as_str()) {
         let name = args.output.display();
-        return Err(Failure::usage(format!("{name}: neither .png nor .exr")));
+        return Err(Failure::usage(format!(
+            "{name}: the output must be a .png or .exr file"
+        )));
     }
     let fonts = FontLibrary::new(args.fonts.clone())?;
     let files = args
@@ -33,7 +35,7 @@ pub(super) fn run(args: Render, console: Console) -> Outcome<ExitCode> {
     let size_px = match (args.size, kind, files.first()) {
         (size, SceneKind::Plane, Some(file)) => super::preview::size_px(size, View::WHOLE, file),
         (Size::Exact(size), ..) => size,
-        // The showroom is framed for 3:2.
+        // The camera of the showroom is framed for 3:2.
         (Size::Longer(longer), ..) => [longer, (longer * 2 / 3).max(1)],
     };
     let Render {
@@ -56,7 +58,7 @@ pub(super) fn run(args: Render, console: Console) -> Outcome<ExitCode> {
     Ok(ExitCode::Ok)
 }
 
-/// Reads a .vtex file, or bakes what is taken for an SVG.
+/// Reads a `.vtex` file; bakes any other file as SVG.
 fn load(path: &Path, fonts: &FontLibrary) -> Outcome<VtexFile> {
     let bytes = input::read(path)?;
     if extension(path) == "vtex" {

@@ -29,7 +29,8 @@ pub(super) fn run(args: &Validate, console: Console) -> Outcome<ExitCode> {
                 }
                 if !issues.is_empty() {
                     let count = issues.len();
-                    let message = format!("{name}: {count} issues; bake or fetch it again");
+                    let message =
+                        format!("{name}: {count} issues found; bake or download the file again");
                     console.failure(&Failure::new(code(&issues), message));
                 }
                 reports.push(json!({"file": path, "issues": issues_json(&issues)}));

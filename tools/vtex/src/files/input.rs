@@ -1,4 +1,4 @@
-//! What `IN...` names: files, folders, globs, standard input.
+//! Inputs on the command line: files, folders, globs, standard input.
 
 use std::fs;
 use std::io::{self, Read};
@@ -6,17 +6,17 @@ use std::path::{Path, PathBuf};
 
 use crate::cli::{ExitCode, Failure, Outcome};
 
-/// Largest input that is read: far above any drawing, far below what a mistaken device would give.
+/// Largest input that is read. No drawing comes near it; it stops reads of devices without end.
 pub(crate) const MAX_INPUT_BYTES: u64 = 1 << 30;
 
 /// One input.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Input {
-    /// Where it is read from; `-` is standard input.
+    /// The path to read; `-` is standard input.
     pub(crate) path: PathBuf,
-    /// Its name under the folder that was given, or its file name.
+    /// Path relative to the folder on the command line, or the file name.
     pub(crate) relative: PathBuf,
-    /// Whether it was named by itself rather than found in a folder or by a glob.
+    /// Whether the command line names this file itself, and not a folder or glob that holds it.
     pub(crate) named: bool,
 }
 
@@ -34,7 +34,7 @@ impl Input {
         self.path.as_os_str() == "-"
     }
 
-    /// Reads it whole.
+    /// Reads all of it.
     ///
     /// # Errors
     /// When it cannot be read or is larger than [`MAX_INPUT_BYTES`].
@@ -61,13 +61,17 @@ pub(crate) fn read(path: &Path) -> Outcome<Vec<u8>> {
     if bytes.len() as u64 > MAX_INPUT_BYTES {
         return Err(Failure::new(
             ExitCode::Limit,
-            format!("{}: larger than 1 GiB, not read", path.display()),
+            format!(
+                "{}: the file is larger than 1 GiB and was not read",
+                path.display()
+            ),
         ));
     }
     Ok(bytes)
 }
 
-/// Files behind the arguments, in order and sorted within each folder or glob.
+/// The files that the arguments name, in the order of the arguments, sorted within each folder or
+/// glob.
 ///
 /// # Errors
 /// When a folder cannot be listed or an argument matches nothing.
@@ -87,7 +91,7 @@ pub(crate) fn expand(arguments: &[PathBuf]) -> Outcome<Vec<Input>> {
         if inputs.len() == before {
             return Err(Failure::new(
                 ExitCode::Io,
-                format!("{}: no .svg or .svgz file there", argument.display()),
+                format!("{}: no .svg or .svgz file found", argument.display()),
             ));
         }
         inputs[before..].sort();
@@ -95,7 +99,7 @@ pub(crate) fn expand(arguments: &[PathBuf]) -> Outcome<Vec<Input>> {
     Ok(inputs)
 }
 
-/// A file whose name happens to hold a bracket is a file.
+/// Whether the argument is a glob. A file whose name contains a bracket is not.
 fn is_pattern(argument: &Path) -> bool {
     !argument.exists()
         && argument
@@ -113,7 +117,8 @@ fn walk(root: &Path, folder: &Path, inputs: &mut Vec<Input>) -> Outcome<()> {
     for entry in fs::read_dir(folder).map_err(list)? {
         let entry = entry.map_err(list)?;
         let path = entry.path();
-        // The entry's own type: a link to a folder is not followed, so no loop can arise.
+        // The type of the entry itself: links to folders are not followed, so that links cannot
+        // form a loop.
         if entry.file_type().map_err(list)?.is_dir() {
             walk(root, &path, inputs)?;
         } else if is_svg(&path) && path.is_file() {
@@ -131,7 +136,7 @@ fn walk(root: &Path, folder: &Path, inputs: &mut Vec<Input>) -> Outcome<()> {
 fn expand_glob(pattern: &Path, inputs: &mut Vec<Input>) -> Outcome<()> {
     let text = pattern.to_string_lossy();
     let paths = glob::glob(&text)
-        .map_err(|error| Failure::usage(format!("{text}: not a glob: {error}")))?;
+        .map_err(|error| Failure::usage(format!("{text}: not a valid glob: {error}")))?;
     for path in paths {
         let path = path.map_err(|error| Failure::io("list", pattern, error.error()))?;
         if path.is_file() && is_svg(&path) {

@@ -1,4 +1,4 @@
-//! Files are written whole or not at all.
+//! Writing files: each is written completely or not at all.
 
 use std::fs;
 use std::io::{self, Write};
@@ -8,9 +8,9 @@ use vtex_truth::comparison::Page;
 
 use crate::cli::{ExitCode, Failure, Outcome};
 
-/// Writes `bytes` to `path`: to a temporary name in the same folder, then renamed over it, so
-/// that no reader ever sees half a file and a failure leaves what was there. Devices and pipes
-/// are written in place.
+/// Writes `bytes` to `path`. The bytes go to a temporary file in the same folder, which is then
+/// renamed to `path`: no reader ever sees half a file, and a failure leaves the old file in place.
+/// Devices and pipes are written directly.
 ///
 /// # Errors
 /// When the folder is missing or the file cannot be written.
@@ -19,7 +19,7 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Outcome<()> {
     match fs::metadata(&target) {
         Ok(existing) if existing.is_dir() => Err(Failure::new(
             ExitCode::Io,
-            format!("{}: is a folder, a file name is needed", path.display()),
+            format!("{}: this is a folder; name a file", path.display()),
         )),
         Ok(existing) if !existing.is_file() => fs::OpenOptions::new()
             .write(true)
@@ -30,7 +30,7 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Outcome<()> {
     }
 }
 
-/// Follows links, so that the file behind a link is replaced and not the link.
+/// Follows links, so that writing to a link replaces its target and not the link.
 fn resolve(path: &Path) -> PathBuf {
     fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
 }
@@ -51,7 +51,8 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     #[cfg(unix)]
     let permissions = permissions.or_else(|| {
         use std::os::unix::fs::PermissionsExt;
-        // What `File::create` asks for; the umask takes its part.
+        // The mode that `File::create` uses, from which the umask is subtracted. Temporary files are
+        // private otherwise.
         Some(fs::Permissions::from_mode(0o666))
     });
     if let Some(permissions) = permissions.filter(|p| !p.readonly()) {
@@ -82,7 +83,7 @@ fn explain(path: &Path, error: &io::Error) -> Failure {
 /// Writes a page into `folder`, the pictures before the text that shows them.
 ///
 /// # Errors
-/// When the folder cannot be made or a file cannot be written.
+/// When the folder cannot be created or a file cannot be written.
 pub(crate) fn write_page(folder: &Path, page: Page) -> Outcome<()> {
     for file in page.finish() {
         let path = folder.join(&file.name);
@@ -92,10 +93,10 @@ pub(crate) fn write_page(folder: &Path, page: Page) -> Outcome<()> {
     Ok(())
 }
 
-/// Makes a folder and those above it.
+/// Creates a folder and those above it.
 ///
 /// # Errors
-/// When the system refuses.
+/// When it cannot be created.
 pub(crate) fn create_folder(path: &Path) -> Outcome<()> {
     fs::create_dir_all(path).map_err(|error| Failure::io("create the folder", path, &error))
 }

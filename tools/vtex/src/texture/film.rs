@@ -1,4 +1,4 @@
-//! Path-traced pictures of textures.
+//! Path-traced pictures of scenes with textures.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -17,7 +17,7 @@ use crate::files;
 pub(crate) enum SceneKind {
     /// The first texture on a plane, seen straight on.
     Plane,
-    /// All of them on things in a room.
+    /// All textures on the objects of a showroom.
     Showroom,
 }
 
@@ -26,23 +26,23 @@ pub(crate) enum SceneKind {
 pub(crate) struct Settings {
     /// Width and height of the film in pixels.
     pub(crate) size_px: [u32; 2],
-    /// Samples a pixel.
+    /// Samples per pixel.
     pub(crate) spp: u32,
-    /// Scatterings of a path.
+    /// Most bounces of a path.
     pub(crate) bounces: u32,
-    /// Seed of all random numbers.
+    /// Seed of the random numbers.
     pub(crate) seed: u32,
     /// What is in the picture.
     pub(crate) kind: SceneKind,
 }
 
-/// Samples between two looks at the progress bar.
+/// Samples for each step of the progress bar.
 const SAMPLES_A_STEP: u32 = 4;
 
 /// Traces a picture of `files`.
 ///
 /// # Errors
-/// When there is no GPU, when it fails, and when the textures do not fit it.
+/// When there is no GPU, when it fails, or when the textures do not fit into its limits.
 pub(crate) fn trace(files: Vec<VtexFile>, settings: Settings, console: Console) -> Outcome<Film> {
     let gpu = Gpu::headless()?;
     console.detail(&format!("tracing on {}", gpu.adapter_name()));
@@ -66,11 +66,12 @@ pub(crate) fn trace(files: Vec<VtexFile>, settings: Settings, console: Console) 
     Ok(tracer.read()?)
 }
 
-/// The film as the kind of file that `path` names: `.png` is sRGB, tone-mapped where the scene
-/// has lights in it, `.exr` holds linear radiance, premultiplied, as 32-bit floats.
+/// The film as a file of the kind that the extension of `path` names. `.png` is sRGB, tone-mapped for
+/// the showroom, whose light is brighter than white paper. `.exr` is linear radiance,
+/// premultiplied, as 32-bit floats.
 ///
 /// # Errors
-/// When `path` names another kind.
+/// When the extension is another one.
 pub(crate) fn encode(film: &Film, kind: SceneKind, path: &Path) -> Outcome<Vec<u8>> {
     match files::extension(path).as_str() {
         "png" => {
@@ -86,7 +87,7 @@ pub(crate) fn encode(film: &Film, kind: SceneKind, path: &Path) -> Outcome<Vec<u
         }
         "exr" => encode_exr(film),
         _ => Err(Failure::usage(format!(
-            "{}: neither .png nor .exr",
+            "{}: the output must be a .png or .exr file",
             path.display()
         ))),
     }

@@ -1,11 +1,13 @@
-//! How many entries and segments each cell holds, as numbers and as pictures.
+//! How many entries and segments each cell holds: as numbers and as a heat map.
 
 use serde_json::{Value, json};
 use vtex_format::{CellWord, CurveHeader, Entry, VtexFile};
 
-/// Pixels along a cell's side in the heat map, so that small grids can be seen.
+/// Pixels along a cell's side in the heat map: with one pixel per cell, small grids could not be
+/// seen.
 const CELL_PX: u32 = 8;
-/// Colours of the scale, from few to many; sRGB. Black-body order, readable without seeing hue.
+/// Colours of the scale, from few to many, sRGB. Lightness grows with the count, so that the map
+/// can be read without seeing hue.
 const SCALE: [[u8; 3]; 6] = [
     [40, 11, 84],
     [101, 21, 110],
@@ -39,7 +41,7 @@ pub(crate) fn cell_loads(file: &VtexFile) -> Vec<CellLoad> {
     file.cells.iter().map(load).collect()
 }
 
-/// Entries that a cell's word names, front to back.
+/// The entries of the list that a cell's word names, front to back; none for other words.
 fn list(file: &VtexFile, word: u32) -> impl Iterator<Item = Entry> {
     let first = match CellWord::decode(word) {
         Some(CellWord::List { offset_words }) => offset_words as usize,
@@ -63,18 +65,19 @@ fn segment_count(file: &VtexFile, entry: Entry) -> u32 {
         .map_or(0, |header| header.line_count + header.quad_count)
 }
 
-/// A picture of one count a cell.
+/// A picture of a count per cell.
 #[derive(Debug)]
 pub(crate) struct HeatMap {
     /// Width and height.
     pub(crate) size_px: [u32; 2],
     /// Row by row from the top.
     pub(crate) rgba: Vec<u8>,
-    /// What its colours mean.
+    /// The meaning of its colours, as JSON.
     pub(crate) legend: Value,
 }
 
-/// Draws `counts`, one a cell. Cells without a list have colours of their own.
+/// Draws `counts`, one per cell. Empty cells and cells of a single paint have colours that are not
+/// on the scale.
 pub(crate) fn heat_map(file: &VtexFile, counts: &[u32]) -> HeatMap {
     let bounds = bounds(counts.iter().copied().max().unwrap_or(0));
     let color = |(&word, &count): (&u32, &u32)| match CellWord::decode(word) {
@@ -101,8 +104,8 @@ pub(crate) fn heat_map(file: &VtexFile, counts: &[u32]) -> HeatMap {
     }
 }
 
-/// The largest count of each colour: steps of equal ratio up to `most`, because costs are read as
-/// ratios and a few cells hold far more than the rest.
+/// The largest count of each colour. The steps have equal ratios up to `most`: a few cells hold far
+/// more than the rest, and with equal differences all others would get one colour.
 fn bounds(most: u32) -> [u32; SCALE.len()] {
     let mut bounds = [0; SCALE.len()];
     let mut below = 0;

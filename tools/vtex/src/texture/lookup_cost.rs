@@ -1,9 +1,9 @@
-//! What point lookups visit of a texture as it is loaded.
+//! The cost of point lookups: how many entries and segments they visit.
 
 use vtex_format::VtexFile;
 use vtex_shaders::{PackOptions, cpu::Sampler, pack};
 
-/// Lookups that [`lookup_load`] makes: the p99 then rests on 160 of them.
+/// Number of lookups: 1 % of them, on which the 99th percentile rests, are 160.
 const LOOKUPS: usize = 16_384;
 
 /// Mean and 99th percentile over lookups.
@@ -15,22 +15,23 @@ pub(crate) struct Spread {
     pub(crate) p99: u32,
 }
 
-/// What a magnified point lookup visits.
+/// What point lookups without footprint, as at large zooms, visit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct LookupLoad {
-    /// Entries up to the first opaque one that covers.
+    /// Entries up to and including the first opaque one that covers the point.
     pub(crate) entries: Spread,
-    /// Segments of these entries that the fine cell holds, and changes of the winding beside it.
+    /// Segments of these entries in the fine cell of the point, and changes of the winding beside
+    /// it.
     pub(crate) segments: Spread,
 }
 
-/// Over points spread evenly over the canvas, the same every time.
+/// The cost over points that are spread evenly over the canvas. The same file gives the same result.
 pub(crate) fn lookup_load(file: &VtexFile) -> LookupLoad {
     let words = pack(file, &PackOptions::default());
     let sampler = Sampler::new(&words);
     let (mut entries, mut segments) = (Vec::new(), Vec::new());
     for k in 0..LOOKUPS {
-        // The additive recurrence R2 of Roberts (2018).
+        // Roberts (2018), "The unreasonable effectiveness of quasirandom sequences": R2.
         let place = |step: f64| ((k + 1) as f64 * step).fract();
         #[expect(clippy::cast_possible_truncation, reason = "a place on the canvas")]
         let uv = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3].map(|step| place(step) as f32);

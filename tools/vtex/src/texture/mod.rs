@@ -1,4 +1,4 @@
-//! What the command shows of `.vtex` files: pictures, and how much they hold.
+//! Looking at `.vtex` files: pictures, and figures on what they hold.
 
 pub(crate) mod film;
 pub(crate) mod heat;
@@ -17,7 +17,7 @@ use crate::cli::{ExitCode, Failure, Outcome};
 /// Parses the bytes of the file at `path`.
 ///
 /// # Errors
-/// The first thing wrong with the file, by whose fault it is.
+/// The first thing that is wrong with the file.
 pub(crate) fn parse(path: &Path, bytes: &[u8]) -> Outcome<VtexFile> {
     VtexFile::parse(bytes, &Limits::default()).map_err(|error| read_failure(path, &error))
 }
@@ -32,7 +32,7 @@ pub(crate) fn read_failure(path: &Path, error: &ReadError) -> Failure {
     Failure::new(code, format!("{}: {error}", path.display()))
 }
 
-/// Prepares a texture for pictures by whoever the command line names.
+/// Prepares a texture for pictures, on the CPU or on the GPU.
 ///
 /// # Errors
 /// When there is no GPU or the texture does not fit it.

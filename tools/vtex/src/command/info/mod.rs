@@ -21,7 +21,7 @@ mod shapes;
 
 use shapes::{shape_json, shapes};
 
-/// Shapes listed unless `--verbose`.
+/// Most shapes listed without `--verbose`.
 const SHAPES_SHOWN: usize = 24;
 
 /// Runs `vtex info`.
@@ -41,7 +41,7 @@ pub(super) fn run(args: &Info, console: Console) -> Outcome<ExitCode> {
     Ok(ExitCode::Ok)
 }
 
-/// What the cells hold.
+/// How many cells are empty, hold a single paint, or hold a list.
 struct CellStats {
     empty: u64,
     single: u64,
@@ -70,7 +70,7 @@ impl CellStats {
     }
 }
 
-/// Names of the features in a shader key.
+/// Names of the features in a spec key.
 pub(crate) fn feature_names(features: u32) -> Vec<&'static str> {
     let names = [
         (Features::LISTS, "lists"),
@@ -158,7 +158,7 @@ fn json(file: &VtexFile, directory: &Directory) -> Value {
     })
 }
 
-/// Shapes of a layer by their place in the painter's order.
+/// Indices of a layer's shapes in the painter's order.
 fn members(file: &VtexFile, layer: u32) -> Vec<usize> {
     let in_layer =
         |shape: &ShapeRecord| shape.coverage != COVERAGE_IMAGE && shape.layer_or_image == layer;
@@ -209,7 +209,7 @@ pub(super) fn warnings_json(warnings: &[Warning]) -> Value {
         .collect()
 }
 
-/// A warning for people.
+/// A warning as a line of text.
 pub(super) fn warning_text(warning: &Warning) -> String {
     match warning.element.as_str() {
         "" => warning.message.clone(),
@@ -246,7 +246,7 @@ fn general(out: &mut String, file: &VtexFile, directory: &Directory) -> std::fmt
     if let Some(provenance) = &file.provenance {
         writeln!(
             out,
-            "made by    {} from {}",
+            "made by    {} from an SVG with hash {}",
             provenance.tool,
             hex(&provenance.source_hash)
         )?;
@@ -362,7 +362,7 @@ fn images(out: &mut String, file: &VtexFile) -> std::fmt::Result {
     let (count, percent) = (patches.count, 100.0 * patches.area);
     writeln!(
         out,
-        "{count} raster patches, over {percent:.1}% of the canvas"
+        "{count} raster patches, on {percent:.1}% of the canvas"
     )
 }
 
