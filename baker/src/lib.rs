@@ -27,7 +27,8 @@ mod drawing;
 mod error;
 mod geometry;
 mod number;
-mod oracle;
+#[cfg(any(test, feature = "oracle"))]
+pub mod oracle;
 mod pipeline;
 mod raster;
 mod svg;
@@ -39,7 +40,6 @@ mod warning;
 
 pub use config::{BakeConfig, ImageReader, Mode, Resources, Stage};
 pub use error::BakeError;
-pub use oracle::Painter;
 pub use pipeline::{bake, bake_observed};
 pub use svg::font_selector;
 

@@ -30,12 +30,16 @@ pub(crate) fn patch_failures(
     let mut resolved = Vec::with_capacity(covers.len());
     for (cover, (item, placed)) in covers.into_iter().zip(items) {
         resolved.push(cover.unwrap_or_else(|_| {
-            if matches!(item, Item::Clip(_)) {
-                drawing.warnings.push(clip_warning());
-                return Cover::everywhere(lattice);
-            }
+            let shape = match item {
+                Item::Shape(shape) => shape,
+                Item::Clip(_) => {
+                    drawing.warnings.push(clip_warning());
+                    return Cover::everywhere(lattice);
+                }
+                Item::Patch(_) => return Cover::default(),
+            };
             // A shape of which nothing shows is listed nowhere.
-            if let Some(patch) = patch::of_shape(item, settings, share) {
+            if let Some(patch) = patch::of_shape(shape, settings, share) {
                 drawing
                     .warnings
                     .push(failure_warning(&patch, drawing.canvas_size));

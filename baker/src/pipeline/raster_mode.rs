@@ -1,6 +1,6 @@
 //! [`Mode::Raster`]: the whole drawing as one image.
 
-use super::assemble;
+use super::assemble::assemble;
 use crate::{
     config::{BakeConfig, Mode, Stage},
     drawing::{Drawing, Item, tree::Tree},

@@ -9,10 +9,9 @@ use vtex_shaders::{FilterMode, PackOptions, cpu::Sampler, pack};
 
 use crate::{
     config::Mode,
-    drawing::color,
     raster::{
         mips::{self, LinearImage},
-        palette,
+        palette, texel,
     },
 };
 
@@ -95,7 +94,7 @@ fn raster_mips(raster: &Image, size: [u32; 2]) -> Image {
     let finest = LinearImage {
         size: raster.size,
         texels: texels
-            .map(|&texel| color::linear_from_stored(texel))
+            .map(|&texel| texel::linear_from_stored(texel))
             .collect(),
     };
     mips::chain(finest.reduced(size), WHOLE)

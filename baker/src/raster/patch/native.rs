@@ -2,18 +2,19 @@
 
 use kurbo::{Affine, Rect};
 use tiny_skia::Pixmap;
-use usvg::ImageRendering;
+use usvg::{ImageKind, ImageRendering, Node};
 use vtex_format::EMBEDDED_SOURCE;
 
+use super::resvg::paint_node;
 use crate::{
-    drawing::{Patch, color},
+    drawing::Patch,
     number::to_f32,
     raster::{
         detail,
         mips::{self, LinearImage},
-        patch::paint_node_by,
+        texel,
     },
-    svg::Subtree,
+    svg::{Step, Subtree},
 };
 
 /// Texels of all images of a file that keep theirs: 32 MiB with their mips. Those beyond are
@@ -31,7 +32,7 @@ const UPRIGHT: f64 = 1e-6;
 
 /// The texels of an image as it is stored in the SVG.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Native {
+pub(super) struct Native {
     /// Texels of the image.
     size: [u32; 2],
     /// Stored texels for each along both axes.
@@ -41,14 +42,21 @@ pub(crate) struct Native {
 }
 
 impl Native {
-    /// `None` for an image that is turned: the rectangles of a file's images are upright.
+    /// `None` for what is no image of texels, and for an image that is turned: the rectangles of a
+    /// file's images are upright.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "sizes of images are whole numbers within limits that the parser has checked"
     )]
-    pub(crate) fn of(image: &usvg::Image, canvas_from_image: Affine) -> Option<Self> {
-        let [a, b, c, d, ..] = canvas_from_image.as_coeffs();
+    fn of(subtree: &Subtree<'_>) -> Option<Self> {
+        let Node::Image(image) = subtree.node else {
+            return None;
+        };
+        if matches!(image.kind(), ImageKind::SVG(_)) {
+            return None;
+        }
+        let [a, b, c, d, ..] = subtree.canvas_from_parent.as_coeffs();
         let least = a.abs().min(d.abs());
         let upright = least > 0.0 && b.abs().max(c.abs()) <= UPRIGHT * least;
         let size = [image.size().width(), image.size().height()];
@@ -92,18 +100,15 @@ impl Native {
     }
 
     /// The image at its place; `None` when it could not be painted.
-    pub(crate) fn patch(self, subtree: &Subtree<'_>, canvas_size: [f64; 2]) -> Option<Patch> {
+    pub(super) fn patch(self, subtree: &Subtree<'_>, canvas_size: [f64; 2]) -> Option<Patch> {
         let size = self.stored_size();
         let mut pixmap = Pixmap::new(size[0], size[1])?;
-        paint_node_by(
-            subtree.node,
-            Affine::scale(self.enlarged.into()),
-            &mut pixmap,
-        )?;
+        let texel_from_image = Affine::scale(self.enlarged.into());
+        paint_node(subtree.node, texel_from_image, &mut pixmap)?;
         let texels = pixmap.data().as_chunks::<4>().0;
         let mut level0 = LinearImage {
             size,
-            texels: texels.iter().map(|&t| color::linear_from_skia(t)).collect(),
+            texels: texels.iter().map(|&t| texel::linear_from_skia(t)).collect(),
         };
         level0.mirror(self.mirrored);
         // What the cubic adds may be nothing.
@@ -129,9 +134,20 @@ impl Native {
     }
 }
 
+/// For each step its own texels, where it is an image that keeps them.
+pub(super) fn choose(steps: &[Step<'_>]) -> Vec<Option<Native>> {
+    let native = |step: &Step<'_>| match step {
+        Step::Raster(subtree) => Native::of(subtree),
+        Step::Shape(_) | Step::Clip(_) => None,
+    };
+    let mut natives: Vec<Option<Native>> = steps.iter().map(native).collect();
+    share_out(natives.iter_mut());
+    natives
+}
+
 /// Enlarges all images of a drawing as far as there are texels for; the last ones are patches where
 /// there are too few for the images themselves.
-pub(crate) fn share_out<'a>(images: impl Iterator<Item = &'a mut Option<Native>>) {
+fn share_out<'a>(images: impl Iterator<Item = &'a mut Option<Native>>) {
     let mut images: Vec<&mut Option<Native>> = images.filter(|image| image.is_some()).collect();
     let total = |images: &[&mut Option<Native>], most: u32| -> u64 {
         let images = images.iter().flat_map(|image| image.iter());

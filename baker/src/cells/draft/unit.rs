@@ -4,14 +4,18 @@ use vtex_format::{BlendMode, MaskKind};
 
 use super::{
     clip::{self, Formula, Test},
-    draft::{Draft, draft_run},
-    input::{CellInput, Present},
-    lists::TileDraft,
-    paint_table::PaintTable,
+    entry::{Draft, draft_run},
 };
-use crate::drawing::{
-    color,
-    tree::{Mask, Node, Scope},
+use crate::{
+    cells::{
+        input::{CellInput, Present},
+        lists::TileDraft,
+        paint_table::PaintTable,
+    },
+    drawing::{
+        color,
+        tree::{Mask, Node, Scope},
+    },
 };
 
 /// What a list holds, front to back.

@@ -8,12 +8,16 @@ use vtex_format::{
 
 use super::{
     clip::Test,
-    draft::{CurvesDraft, Draft},
-    lists::{CellLists, TileDraft},
-    paint_table::PaintTable,
+    entry::{CurvesDraft, Draft},
     unit::{GroupDraft, ScopeDraft, Unit},
 };
-use crate::error::BakeError;
+use crate::{
+    cells::{
+        lists::{CellLists, TileDraft},
+        paint_table::PaintTable,
+    },
+    error::BakeError,
+};
 
 /// Puts drafts into the file's sections, equal ones once.
 pub(super) struct ListEncoder<'a> {

@@ -1,10 +1,10 @@
 //! Where clips let a group show in one cell, as a run of tests with jumps.
 
-use super::{
-    draft::{CurvesDraft, draft_curves},
-    input::{CellInput, Present},
+use super::entry::{CurvesDraft, draft_curves};
+use crate::{
+    cells::input::{CellInput, Present},
+    drawing::tree::{Clip, ClipPart},
 };
-use crate::drawing::tree::{Clip, ClipPart};
 
 /// Where in the cell.
 #[derive(Clone, Debug, PartialEq)]

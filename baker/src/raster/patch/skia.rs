@@ -1,34 +1,30 @@
-//! Pictures of single items by tiny-skia: of shapes that are too much for curves.
+//! Pictures of single shapes by tiny-skia: of those that are too much for curves.
 
 use kurbo::{Affine, BezPath, PathEl, Point, Rect};
 use tiny_skia::{
     Color, FillRule as SkiaFillRule, GradientStop as SkiaStop, LinearGradient, Paint, Path,
-    PathBuilder, Pixmap, PixmapMut, PixmapPaint, Point as SkiaPoint, RadialGradient, Shader,
-    SpreadMode, Transform,
+    PathBuilder, Pixmap, Point as SkiaPoint, RadialGradient, Shader, SpreadMode, Transform,
 };
 use vtex_format::{Gradient, GradientShape, GradientStop, Spread};
 
-use crate::{
-    drawing::{self, FillRule, Item, Patch, Shape},
-    raster::resample,
-};
+use crate::drawing::{self, FillRule, Shape};
 
 /// A window on the canvas, in texels.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct View {
+pub(super) struct View {
     /// Columns and rows.
-    pub(crate) size: [u32; 2],
+    pub(super) size: [u32; 2],
     /// Texels a user unit along x and y.
-    pub(crate) scale: [f64; 2],
+    pub(super) scale: [f64; 2],
     /// Texel coordinates of the window's top-left corner.
-    pub(crate) origin: [f64; 2],
+    pub(super) origin: [f64; 2],
     /// Texels of the whole canvas.
-    pub(crate) canvas: [f64; 2],
+    pub(super) canvas: [f64; 2],
 }
 
 impl View {
     /// The whole canvas on exactly `size` texels.
-    pub(crate) fn canvas(canvas_size: [f64; 2], size: [u32; 2]) -> Self {
+    pub(super) fn canvas(canvas_size: [f64; 2], size: [u32; 2]) -> Self {
         let scale = [0, 1].map(|axis| f64::from(size[axis]) / canvas_size[axis]);
         Self {
             size,
@@ -39,7 +35,7 @@ impl View {
     }
 
     /// To texels of the window.
-    pub(crate) fn texel_from_canvas(self) -> Affine {
+    pub(super) fn texel_from_canvas(self) -> Affine {
         Affine::new([
             self.scale[0],
             0.0,
@@ -57,24 +53,11 @@ impl View {
     }
 }
 
-/// The items on a transparent ground; `None` when the window cannot be allocated.
-pub(crate) fn picture(items: &[Item], view: View) -> Option<Pixmap> {
+/// The shape on a transparent ground; `None` when the window cannot be allocated.
+pub(super) fn picture(shape: &Shape, view: View) -> Option<Pixmap> {
     let mut pixmap = Pixmap::new(view.size[0], view.size[1])?;
-    paint(items, view, &mut pixmap.as_mut());
+    paint_shape(shape, view, &mut pixmap);
     Some(pixmap)
-}
-
-/// Paints the items over what is there.
-pub(crate) fn paint(items: &[Item], view: View, pixmap: &mut PixmapMut<'_>) {
-    let texel_from_canvas = view.texel_from_canvas();
-    let window = Rect::new(0.0, 0.0, f64::from(view.size[0]), f64::from(view.size[1]));
-    for item in items {
-        match item {
-            Item::Shape(shape) => paint_shape(shape, view, window, pixmap),
-            Item::Patch(patch) => paint_patch(patch, texel_from_canvas, window, pixmap),
-            Item::Clip(_) => {}
-        }
-    }
 }
 
 fn misses(bounds: Rect, window: Rect) -> bool {
@@ -84,7 +67,8 @@ fn misses(bounds: Rect, window: Rect) -> bool {
         || bounds.y0 >= window.y1 + 1.0
 }
 
-fn paint_shape(shape: &Shape, view: View, window: Rect, pixmap: &mut PixmapMut<'_>) {
+fn paint_shape(shape: &Shape, view: View, pixmap: &mut Pixmap) {
+    let window = Rect::new(0.0, 0.0, f64::from(view.size[0]), f64::from(view.size[1]));
     let transform = view.texel_from_canvas();
     if misses(
         transform.transform_rect_bbox(shape.outline.control_box()),
@@ -154,8 +138,9 @@ fn skia_gradient(gradient: &Gradient, texel_from_uv: Affine) -> Option<Shader<'s
     }
 }
 
+/// A transform as tiny-skia has it.
 #[expect(clippy::cast_possible_truncation, reason = "tiny-skia works in f32")]
-fn skia_transform(transform: Affine) -> Transform {
+pub(super) fn skia_transform(transform: Affine) -> Transform {
     let [a, b, c, d, e, f] = transform.as_coeffs().map(|x| x as f32);
     Transform::from_row(a, b, c, d, e, f)
 }
@@ -189,24 +174,4 @@ fn skia_path(outline: &BezPath, transform: Affine) -> Option<Path> {
         }
     }
     builder.finish()
-}
-
-fn paint_patch(patch: &Patch, transform: Affine, window: Rect, pixmap: &mut PixmapMut<'_>) {
-    let target = transform.transform_rect_bbox(patch.rect);
-    if misses(target, window) {
-        return;
-    }
-    let Some(part) = resample::patch_part(&patch.image, target, window) else {
-        return;
-    };
-    let (x, y) = part.origin;
-    let paint = PixmapPaint::default();
-    pixmap.draw_pixmap(
-        x,
-        y,
-        part.pixmap.as_ref(),
-        &paint,
-        Transform::identity(),
-        None,
-    );
 }

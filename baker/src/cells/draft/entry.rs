@@ -2,12 +2,12 @@
 
 use vtex_format::{SourceRecord, cut::CellCurves};
 
-use super::{
-    input::{CellInput, Present},
-    lists::TileDraft,
-    paint_table::PaintTable,
-};
 use crate::{
+    cells::{
+        input::{CellInput, Present},
+        lists::TileDraft,
+        paint_table::PaintTable,
+    },
     coverage::{curves::record::encode_record, placed::PlacedKind},
     drawing::FillRule,
 };
