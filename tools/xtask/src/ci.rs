@@ -184,10 +184,10 @@ fn wasm(ws: &Workspace) -> Result<Outcome> {
         return Ok(Outcome::Failed);
     }
     let check = ["check", "--release", "--locked", "--target", WASM];
-    let packages = ["-p", "vtex-format", "-p", "vtex-shaders"];
-    let features = ["--no-default-features", "--features"];
-    let decoder = ["vtex-format/decode,vtex-format/ruzstd"];
-    cargo(ws, &[&check[..], &packages, &features, &decoder].concat())
+    // The runtime brings format and shaders.
+    let runtime = ["-p", "vtex-runtime", "--no-default-features"];
+    let features = ["--features", "webgpu,tracer,ruzstd"];
+    cargo(ws, &[&check[..], &runtime, &features].concat())
 }
 
 /// Whether cargo-deny is there; says how to get it otherwise.
