@@ -8,6 +8,9 @@ use vtex_format::AddressMode;
 
 use crate::BakeError;
 
+/// Pixels of the canvas' longer side at zoom 1.
+const PIXELS_AT_ZOOM_1: f64 = 512.0;
+
 /// Which coverage kinds a bake may use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
@@ -78,6 +81,12 @@ impl Default for BakeConfig {
 }
 
 impl BakeConfig {
+    /// Pixels along the canvas' longer side at the largest zoom: what every tolerance in pixels is
+    /// measured by.
+    pub(crate) fn longer_side_px(&self) -> f64 {
+        PIXELS_AT_ZOOM_1 * f64::from(self.max_zoom)
+    }
+
     /// Checks every option against its range.
     ///
     /// # Errors

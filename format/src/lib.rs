@@ -32,74 +32,70 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod cell;
-mod check;
-mod codec;
-mod control;
-mod curve;
-pub mod cut;
-mod directory;
-mod error;
-mod file;
-mod frame;
-mod gradient;
-mod header;
-mod image;
-mod issue;
-mod layer;
-mod layout;
-mod limits;
-mod lists;
-mod meta;
-mod paint;
-mod prov;
-mod read;
-mod scope;
-mod section;
-mod shader;
-mod shape;
-mod source;
-mod spec;
-mod tag;
-mod tile;
-mod write;
+#![cfg_attr(docsrs, feature(doc_cfg))]
+#![cfg_attr(
+    not(any(test, all(feature = "encode", feature = "decode"))),
+    expect(
+        dead_code,
+        reason = "reading and writing share their modules; the half that is left out has no caller"
+    )
+)]
 
-pub use cell::{
+#[cfg(all(feature = "decode", not(any(feature = "zstd", feature = "ruzstd"))))]
+compile_error!("reading needs a decoder: enable the feature `zstd` or `ruzstd`");
+
+mod cells;
+mod check;
+mod container;
+mod curves;
+mod file;
+mod records;
+mod serial;
+
+pub use cells::cell::{
     CELL_TAG_SHIFT, CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL, MAX_INDEXED, MAX_ITEMS,
     MAX_LIST_ITEMS,
 };
-pub use control::{BlendMode, MaskKind, OPEN_ISOLATED};
-pub use curve::{
+pub use cells::control::{BlendMode, MaskKind, OPEN_ISOLATED};
+pub use cells::scope::{
+    Block, ListFault, ListFaultKind, MAX_FRAMES, MaskBlock, jump_target, list_blocks, list_frames,
+};
+pub use container::directory::{Directory, directory};
+pub use container::error::{ReadError, WriteError};
+pub use container::issue::{Fault, ISSUES, Issue, IssueKind};
+pub use container::layout::{MAX_SECTIONS, VERSION_MAJOR, VERSION_MINOR};
+pub use container::limits::Limits;
+pub use container::section::{Codec, SectionInfo};
+pub use container::tag::Tag;
+pub use curves::cut;
+pub use curves::source::{CurveSources, SourceError, SourceOutline, SourceRecord, SourceSegment};
+pub use file::spec::{Features, SHADER_ABI, SpecKey, SpecParts};
+pub use file::texture::VtexFile;
+pub use records::curve::{
     CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CurveHeader, CurveLattice,
     MAX_CURVE_SEGMENTS, MAX_CURVE_STEPS,
 };
-pub use directory::{Directory, directory};
-pub use error::{ReadError, WriteError};
-pub use file::VtexFile;
-pub use gradient::{Gradient, GradientShape, GradientStop, MAX_GRADIENT_STOPS, Spread};
-pub use image::{Image, MAX_IMAGE_SIDE, MAX_MIPS};
-pub use issue::{Fault, ISSUES, Issue, IssueKind};
-pub use layer::LayerRecord;
-pub use layout::{MAX_SECTIONS, VERSION_MAJOR, VERSION_MINOR};
-pub use limits::Limits;
-pub use meta::{
+pub use records::gradient::{Gradient, GradientShape, GradientStop, MAX_GRADIENT_STOPS, Spread};
+pub use records::image::{Image, MAX_IMAGE_SIDE, MAX_MIPS};
+pub use records::layer::LayerRecord;
+pub use records::meta::{
     AddressMode, Grid, MAX_GRID_SIDE, MAX_TEXELS_PER_CELL, Meta, Outline, SamplerSettings,
 };
-pub use paint::{PAINT_LINEAR, PAINT_RADIAL, PAINT_SOLID, PaintRecord};
-pub use prov::{
+pub use records::paint::{PAINT_LINEAR, PAINT_RADIAL, PAINT_SOLID, PaintRecord};
+pub use records::prov::{
     EMBEDDED_SOURCE, FieldError, Finding, Preparation, Provenance, ShapeReport, Warning,
     WarningCode,
 };
-pub use read::validate;
-pub use scope::{
-    Block, ListFault, ListFaultKind, MAX_FRAMES, MaskBlock, jump_target, list_blocks, list_frames,
-};
-pub use section::{Codec, SectionInfo};
-pub use shader::ShaderBlob;
-pub use shape::{
+pub use records::shader::ShaderBlob;
+pub use records::shape::{
     COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, FILL_EVEN_ODD, FILL_NON_ZERO, ShapeRecord,
 };
-pub use source::{CurveSources, SourceError, SourceOutline, SourceRecord, SourceSegment};
-pub use spec::{Features, SHADER_ABI, SpecKey, SpecParts};
-pub use tag::Tag;
-pub use write::Executor;
+#[cfg(feature = "decode")]
+pub use serial::read::validate;
+#[cfg(feature = "encode")]
+pub use serial::write::Executor;
+
+/// The examples of README.md, which run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -6,7 +6,6 @@ use std::io::BufWriter;
 use std::time::Instant;
 
 use vtex_format::{Limits, VtexFile};
-use vtex_runtime::glam::{Affine3A, Vec3};
 use vtex_runtime::{
     Camera, Gpu, Instance, LoadOptions, Material, Mesh, RectLight, Scene, Sky, Surface,
     TraceOptions, Tracer, scene,
@@ -75,8 +74,14 @@ fn board_and_ball(files: Vec<VtexFile>) -> Scene {
         },
         ..paper
     };
-    let at = |x: f32, y: f32, z: f32| Affine3A::from_translation(Vec3::new(x, y, z));
-    let lying = Affine3A::from_rotation_x(-std::f32::consts::FRAC_PI_2);
+    // Where x, y, z and the origin go: moved, and turned so that what faced z faces up.
+    let at = |x, y, z| [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [x, y, z]];
+    let lying = [
+        [1.0, 0.0, 0.0],
+        [0.0, 0.0, -1.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 0.0],
+    ];
     let objects = [
         (Mesh::plane(20.0, 20.0), floor, lying),
         (Mesh::plane(1.2 * aspect, 1.2), paper, at(-0.8, 0.6, 0.0)),
@@ -92,15 +97,15 @@ fn board_and_ball(files: Vec<VtexFile>) -> Scene {
             .collect(),
         sky: Sky::uniform(0.4),
         lights: vec![RectLight {
-            corner: Vec3::new(-1.0, 3.0, 0.5),
-            edge_u: Vec3::new(2.0, 0.0, 0.0),
-            edge_v: Vec3::new(0.0, 0.0, 2.0),
+            corner: [-1.0, 3.0, 0.5],
+            edge_u: [2.0, 0.0, 0.0],
+            edge_v: [0.0, 0.0, 2.0],
             radiance: [6.0; 3],
         }],
         camera: Camera {
-            position: Vec3::new(0.0, 1.2, 4.5),
-            target: Vec3::new(0.0, 0.5, 0.0),
-            up: Vec3::Y,
+            position: [0.0, 1.2, 4.5],
+            target: [0.0, 0.5, 0.0],
+            up: [0.0, 1.0, 0.0],
             fov_y_rad: 0.55,
         },
     };

@@ -1,13 +1,10 @@
 //! Arrays of lookups in, colours out.
 
-use std::borrow::Cow;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-
 use vtex_format::{SHADER_ABI, SpecKey, VtexFile};
 use vtex_shaders::{BatchQuery, BindingSlot, batch_dispatch};
 use wgpu::{Buffer, BufferUsages, ComputePipeline, Device, Queue, ShaderSource};
 
-use crate::gpu::{checked, compiled, empty_buffer, filled_buffer, read_buffer};
+use crate::device::{checked, compiled, empty_buffer, filled_buffer, read_back};
 use crate::{LoadOptions, RuntimeError};
 
 /// Whose shader is compiled. The key is the truth: text made from it is what a file means.
@@ -23,6 +20,10 @@ use crate::{LoadOptions, RuntimeError};
 /// long, not to reach other memory. wgpu puts bounds on its loops and array indices as on any
 /// shader. Where it is refused, or the caller's [`LoadOptions`] change the key, our text is used
 /// and a notice says so.
+///
+/// SPIR-V is read only with the feature `spirv`, and not in a browser: naga may panic over words
+/// that no compiler would write, and a panic there ends the program. Otherwise [`Trust::File`]
+/// gives our text and a notice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Trust {
     /// Ours, made from the key. What the file stores is only compared.
@@ -52,6 +53,7 @@ impl BatchSampler {
     /// # Errors
     /// As [`crate::GpuVtex::upload`]; [`RuntimeError::Shader`] when the device refuses our own
     /// kernel, which is a defect.
+    #[cfg(all(feature = "blocking", not(target_arch = "wasm32")))]
     pub fn new(
         device: &Device,
         queue: &Queue,
@@ -59,17 +61,39 @@ impl BatchSampler {
         options: &LoadOptions,
         trust: Trust,
     ) -> Result<Self, RuntimeError> {
+        let made = Self::new_async(device, queue, file, options, trust);
+        crate::device::block_on(device, made)
+    }
+
+    /// As `BatchSampler::new`, for callers that must not block.
+    ///
+    /// # Errors
+    /// As [`crate::GpuVtex::upload_async`]; [`RuntimeError::Shader`] when the device refuses our
+    /// own kernel, which is a defect.
+    pub async fn new_async(
+        device: &Device,
+        queue: &Queue,
+        file: &VtexFile,
+        options: &LoadOptions,
+        trust: Trust,
+    ) -> Result<Self, RuntimeError> {
         let words = vtex_shaders::pack(file, &options.pack);
-        let bytes = bytemuck::cast_slice(&words);
-        let words = filled_buffer(device, queue, "vtex texture", bytes, BufferUsages::STORAGE)?;
+        let words = checked(device, "texture", || {
+            let bytes = bytemuck::cast_slice(&words);
+            filled_buffer(device, queue, "vtex texture", bytes, BufferUsages::STORAGE)
+        })
+        .await?;
         let key = vtex_shaders::spec_key_with(file, &options.pack);
         let mut notices = Vec::new();
-        let stored = stored_kernel(device, file, &key, trust, &mut notices);
+        let stored = match trusted_spirv(file, &key, trust, &mut notices) {
+            Some(spirv) => stored_kernel(device, spirv, &mut notices).await,
+            None => None,
+        };
         let pipeline = match stored {
             Some(pipeline) => pipeline,
             None => {
-                let wgsl = vtex_shaders::batch_kernel(&key);
-                pipeline(device, ShaderSource::Wgsl(wgsl.into()))?
+                let wgsl = ShaderSource::Wgsl(vtex_shaders::batch_kernel(&key).into());
+                compiled(device, "batch kernel", || Ok(pipeline(device, wgsl))).await?
             }
         };
         Ok(Self {
@@ -85,50 +109,72 @@ impl BatchSampler {
     ///
     /// # Errors
     /// [`RuntimeError::Device`] when the device is lost.
+    #[cfg(all(feature = "blocking", not(target_arch = "wasm32")))]
     pub fn sample(&self, queries: &[BatchQuery]) -> Result<Vec<[f32; 4]>, RuntimeError> {
+        crate::device::block_on(&self.device, self.sample_async(queries))
+    }
+
+    /// As `BatchSampler::sample`, for callers that must not block.
+    ///
+    /// # Errors
+    /// [`RuntimeError::Device`] when the device is lost.
+    pub async fn sample_async(
+        &self,
+        queries: &[BatchQuery],
+    ) -> Result<Vec<[f32; 4]>, RuntimeError> {
         let mut colors = Vec::with_capacity(queries.len());
         for chunk in queries.chunks(CHUNK) {
-            colors.extend(self.sample_chunk(chunk)?);
+            colors.extend(self.sample_chunk(chunk).await?);
         }
         Ok(colors)
     }
 
-    fn sample_chunk(&self, queries: &[BatchQuery]) -> Result<Vec<[f32; 4]>, RuntimeError> {
+    async fn sample_chunk(&self, queries: &[BatchQuery]) -> Result<Vec<[f32; 4]>, RuntimeError> {
         let (device, queue) = (&self.device, &self.queue);
-        let bytes = bytemuck::cast_slice(queries);
-        let storage = BufferUsages::STORAGE;
-        let input = filled_buffer(device, queue, "vtex queries", bytes, storage)?;
         let size = (queries.len() * size_of::<[f32; 4]>()) as u64;
-        let usage = storage | BufferUsages::COPY_SRC;
-        let output = empty_buffer(device, "vtex colours", size, usage)?;
-        let buffers = [&self.words, &input, &output];
+        let output = checked(device, "batch", || {
+            let bytes = bytemuck::cast_slice(queries);
+            let storage = BufferUsages::STORAGE;
+            let input = filled_buffer(device, queue, "vtex queries", bytes, storage)?;
+            let usage = storage | BufferUsages::COPY_SRC;
+            let output = empty_buffer(device, "vtex colours", size, usage)?;
+            let group = self.bind(&input, &output);
+            self.dispatch(&group, queries.len());
+            Ok(output)
+        })
+        .await?;
+        let bytes = read_back(device, queue, &output, size).await?;
+        Ok(bytemuck::pod_collect_to_vec(&bytes))
+    }
+
+    fn bind(&self, input: &Buffer, output: &Buffer) -> wgpu::BindGroup {
         let entries: Vec<wgpu::BindGroupEntry<'_>> = (0..)
-            .zip(buffers)
+            .zip([&self.words, input, output])
             .map(|(binding, buffer)| wgpu::BindGroupEntry {
                 binding,
                 resource: buffer.as_entire_binding(),
             })
             .collect();
-        checked(device, "batch", || {
-            let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("vtex batch"),
-                layout: &self.pipeline.get_bind_group_layout(0),
-                entries: &entries,
-            });
-            let mut encoder =
-                device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            {
-                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-                pass.set_pipeline(&self.pipeline);
-                pass.set_bind_group(0, &group, &[]);
-                let count = u32::try_from(queries.len()).unwrap_or(u32::MAX);
-                let [x, y, z] = batch_dispatch(count);
-                pass.dispatch_workgroups(x, y, z);
-            }
-            queue.submit([encoder.finish()]);
-        })?;
-        let bytes = read_buffer(device, queue, &output, size)?;
-        Ok(bytemuck::pod_collect_to_vec(&bytes))
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("vtex batch"),
+            layout: &self.pipeline.get_bind_group_layout(0),
+            entries: &entries,
+        })
+    }
+
+    fn dispatch(&self, group: &wgpu::BindGroup, count: usize) {
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(0, group, &[]);
+            let count = u32::try_from(count).unwrap_or(u32::MAX);
+            let [x, y, z] = batch_dispatch(count);
+            pass.dispatch_workgroups(x, y, z);
+        }
+        self.queue.submit([encoder.finish()]);
     }
 
     /// Where the file's own shader differs from its key or was not used though asked for, one
@@ -138,14 +184,13 @@ impl BatchSampler {
     }
 }
 
-/// The file's kernel where [`Trust`]'s table says so.
-fn stored_kernel(
-    device: &Device,
-    file: &VtexFile,
+/// The file's SPIR-V where [`Trust`]'s table says that it is used.
+fn trusted_spirv<'a>(
+    file: &'a VtexFile,
     key: &SpecKey,
     trust: Trust,
     notices: &mut Vec<String>,
-) -> Option<ComputePipeline> {
+) -> Option<&'a [u32]> {
     let blob = &file.shader;
     if blob.abi != SHADER_ABI {
         notices.push(format!(
@@ -171,56 +216,78 @@ fn stored_kernel(
         notices.push("load options change the shader key: using our own shader".to_owned());
         return None;
     }
-    let spirv = ShaderSource::SpirV(Cow::Borrowed(&blob.batch_spirv));
-    // naga may stumble over words no compiler would write; the process must not.
-    match catch_unwind(AssertUnwindSafe(|| pipeline(device, spirv))) {
-        Ok(Ok(pipeline)) => Some(pipeline),
-        Ok(Err(error)) => {
+    Some(&blob.batch_spirv)
+}
+
+/// Compiles the file's kernel; `None` and a notice where that is refused.
+#[cfg(all(feature = "spirv", not(target_arch = "wasm32")))]
+async fn stored_kernel(
+    device: &Device,
+    spirv: &[u32],
+    notices: &mut Vec<String>,
+) -> Option<ComputePipeline> {
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+
+    let made = compiled(device, "batch kernel", || {
+        let source = ShaderSource::SpirV(spirv.into());
+        // naga may stumble over words no compiler would write; the process must not.
+        catch_unwind(AssertUnwindSafe(|| pipeline(device, source)))
+            .map_err(|_| RuntimeError::Shader("the parser panicked".to_owned()))
+    });
+    match made.await {
+        Ok(pipeline) => Some(pipeline),
+        Err(error) => {
             notices.push(format!(
                 "the file's kernel was refused, using our own: {error}"
             ));
             None
         }
-        Err(_) => {
-            notices.push("the file's kernel could not be read: using our own".to_owned());
-            None
-        }
     }
 }
 
+/// This build reads no SPIR-V.
+#[cfg(not(all(feature = "spirv", not(target_arch = "wasm32"))))]
+#[expect(clippy::unused_async, reason = "the other form waits for the device")]
+async fn stored_kernel(
+    _: &Device,
+    _: &[u32],
+    notices: &mut Vec<String>,
+) -> Option<ComputePipeline> {
+    notices.push("this build reads no SPIR-V, using our own shader".to_owned());
+    None
+}
+
 /// Compiles a kernel of the batch interface: group 0 with words, queries, colours.
-fn pipeline(device: &Device, source: ShaderSource<'_>) -> Result<ComputePipeline, RuntimeError> {
-    compiled(device, "batch kernel", || {
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("vtex batch"),
-            source,
-        });
-        let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only },
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
-        };
-        let group = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("vtex batch"),
-            entries: &[entry(0, true), entry(1, true), entry(2, false)],
-        });
-        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("vtex batch"),
-            bind_group_layouts: &[Some(&group)],
-            immediate_size: 0,
-        });
-        device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some("vtex batch"),
-            layout: Some(&layout),
-            module: &module,
-            entry_point: Some("vtex_batch"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            cache: None,
-        })
+fn pipeline(device: &Device, source: ShaderSource<'_>) -> ComputePipeline {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("vtex batch"),
+        source,
+    });
+    let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let group = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("vtex batch"),
+        entries: &[entry(0, true), entry(1, true), entry(2, false)],
+    });
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("vtex batch"),
+        bind_group_layouts: &[Some(&group)],
+        immediate_size: 0,
+    });
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some("vtex batch"),
+        layout: Some(&layout),
+        module: &module,
+        entry_point: Some("vtex_batch"),
+        compilation_options: wgpu::PipelineCompilationOptions::default(),
+        cache: None,
     })
 }

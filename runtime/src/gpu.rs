@@ -33,19 +33,22 @@ impl Gpu {
     /// # Errors
     /// [`RuntimeError::NoAdapter`] when there is none or none matches,
     /// [`RuntimeError::Device`] when the adapter offers less than core WebGPU.
+    #[cfg(all(feature = "blocking", not(target_arch = "wasm32")))]
     pub fn headless() -> Result<Self, RuntimeError> {
-        let wanted = std::env::var(ADAPTER_VARIABLE).ok();
-        pollster::block_on(Self::open(wanted.as_deref()))
+        // Outside a browser wgpu answers both requests at once.
+        pollster::block_on(Self::headless_async())
     }
 
-    /// As [`Gpu::headless`] for callers that must not block, such as a browser. `wanted` is part
-    /// of the adapter's name; `None` takes the best.
+    /// As `Gpu::headless`, for callers that must not block, such as a page in a browser. There
+    /// the browser chooses the adapter: a page has no environment variables.
     ///
     /// # Errors
-    /// As [`Gpu::headless`].
-    pub async fn open(wanted: Option<&str>) -> Result<Self, RuntimeError> {
+    /// [`RuntimeError::NoAdapter`] when there is none or none matches,
+    /// [`RuntimeError::Device`] when the adapter offers less than core WebGPU.
+    pub async fn headless_async() -> Result<Self, RuntimeError> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-        let adapter = match wanted.filter(|name| !name.is_empty()) {
+        let wanted = std::env::var(ADAPTER_VARIABLE).ok();
+        let adapter = match wanted.as_deref().filter(|name| !name.is_empty()) {
             Some(name) => named_adapter(&instance, name).await?,
             None => best_adapter(&instance).await?,
         };
@@ -112,122 +115,4 @@ async fn named_adapter(
                 "{ADAPTER_VARIABLE}={name} matches none of {names:?}"
             ))
         })
-}
-
-/// Runs `make` and turns the validation and memory errors it causes into a [`RuntimeError`].
-pub(crate) fn checked<T>(
-    device: &wgpu::Device,
-    what: &str,
-    make: impl FnOnce() -> T,
-) -> Result<T, RuntimeError> {
-    let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-    let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
-    let made = make();
-    let validation = pollster::block_on(validation.pop());
-    let memory = pollster::block_on(memory.pop());
-    match (validation, memory) {
-        (_, Some(error)) => Err(RuntimeError::Limit(format!("{what}: {error}"))),
-        (Some(error), None) => Err(RuntimeError::Device(format!("{what}: {error}"))),
-        (None, None) => Ok(made),
-    }
-}
-
-/// As [`checked`] for shaders and pipelines.
-pub(crate) fn compiled<T>(
-    device: &wgpu::Device,
-    what: &str,
-    make: impl FnOnce() -> T,
-) -> Result<T, RuntimeError> {
-    checked(device, what, make).map_err(|error| match error {
-        RuntimeError::Device(message) => RuntimeError::Shader(message),
-        other => other,
-    })
-}
-
-/// Makes a buffer that holds `bytes`; an empty slice becomes one zero word, since bindings may
-/// not be empty.
-///
-/// # Errors
-/// [`RuntimeError::Limit`] when `bytes` does not fit one binding of the device.
-pub(crate) fn filled_buffer(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    label: &str,
-    bytes: &[u8],
-    usage: wgpu::BufferUsages,
-) -> Result<wgpu::Buffer, RuntimeError> {
-    let size = (bytes.len() as u64).max(64).next_multiple_of(4);
-    let buffer = empty_buffer(device, label, size, usage | wgpu::BufferUsages::COPY_DST)?;
-    // Every record of this crate is whole words long, so no tail is left to pad.
-    queue.write_buffer(&buffer, 0, bytes);
-    Ok(buffer)
-}
-
-/// Makes a zeroed buffer of `size` bytes.
-pub(crate) fn empty_buffer(
-    device: &wgpu::Device,
-    label: &str,
-    size: u64,
-    usage: wgpu::BufferUsages,
-) -> Result<wgpu::Buffer, RuntimeError> {
-    let limits = device.limits();
-    let limit = if usage.contains(wgpu::BufferUsages::STORAGE) {
-        limits
-            .max_storage_buffer_binding_size
-            .min(limits.max_buffer_size)
-    } else {
-        limits.max_buffer_size
-    };
-    if size > limit {
-        return Err(RuntimeError::Limit(format!(
-            "{label} needs {size} bytes, this device binds at most {limit}"
-        )));
-    }
-    checked(device, label, || {
-        device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some(label),
-            size,
-            usage,
-            mapped_at_creation: false,
-        })
-    })
-}
-
-/// Waits for all submitted work.
-pub(crate) fn wait(device: &wgpu::Device) -> Result<(), RuntimeError> {
-    device
-        .poll(wgpu::PollType::wait_indefinitely())
-        .map(|_| ())
-        .map_err(|error| RuntimeError::Device(error.to_string()))
-}
-
-/// Copies the first `size` bytes of `source` back. `source` needs `COPY_SRC`.
-pub(crate) fn read_buffer(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    source: &wgpu::Buffer,
-    size: u64,
-) -> Result<Vec<u8>, RuntimeError> {
-    let usage = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
-    let staging = empty_buffer(device, "vtex readback", size, usage)?;
-    checked(device, "read-back", || {
-        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.copy_buffer_to_buffer(source, 0, &staging, 0, size);
-        queue.submit([encoder.finish()]);
-    })?;
-    let (sender, receiver) = std::sync::mpsc::channel();
-    staging.map_async(wgpu::MapMode::Read, .., move |result| {
-        // The receiver lives until `recv` below returns; were it gone, nobody would want this.
-        let _ = sender.send(result);
-    });
-    wait(device)?;
-    // Another thread that polls the same device may run the callback after this one's wait ends.
-    let mapped = receiver
-        .recv()
-        .map_err(|_| RuntimeError::Device("read-back never finished".to_owned()))?;
-    mapped.map_err(|error| RuntimeError::Device(error.to_string()))?;
-    let view = staging
-        .get_mapped_range(..)
-        .map_err(|error| RuntimeError::Device(error.to_string()))?;
-    Ok(view.to_vec())
 }

@@ -7,27 +7,36 @@
 //!
 //! [`Gpu::headless`] opens a device for programs that have none.
 
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
 mod batch;
-mod bvh;
-mod camera;
+mod device;
 mod error;
 mod gpu;
 mod load;
-mod mesh;
-mod plane;
+#[cfg(feature = "tracer")]
 pub mod scene;
+#[cfg(feature = "tracer")]
 mod tracer;
 
 pub use batch::{BatchSampler, Trust};
-pub use camera::Camera;
 pub use error::RuntimeError;
 pub use gpu::{ADAPTER_VARIABLE, Gpu};
 pub use load::{GpuVtex, LoadOptions};
-pub use mesh::{MAX_TRIANGLES, Mesh};
-pub use scene::{Instance, MAX_LIGHTS, Material, RectLight, Scene, Sky, Surface};
+#[cfg(feature = "tracer")]
+pub use scene::{
+    Camera, Instance, MAX_LIGHTS, MAX_TRIANGLES, Material, Mesh, RectLight, Scene, Sky, Surface,
+};
+#[cfg(feature = "tracer")]
 pub use tracer::{
     Background, Film, LightSampling, RayHit, RayQuery, ToneMap, TraceOptions, TraceStats, Tracer,
 };
 pub use vtex_shaders::layout::{BatchQuery, FilterMode};
 
-pub use {glam, wgpu};
+// The crates whose types stand in signatures here, so that their versions always fit.
+pub use {vtex_format, wgpu};
+
+/// The examples of README.md, which run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

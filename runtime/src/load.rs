@@ -5,7 +5,7 @@ use vtex_shaders::PackOptions;
 use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferUsages, Device, Queue};
 
 use crate::RuntimeError;
-use crate::gpu::{checked, filled_buffer};
+use crate::device::{checked, filled_buffer};
 
 /// What a caller may decide at load; the file's own settings hold otherwise.
 #[derive(Clone, Debug, Default)]
@@ -47,16 +47,34 @@ impl GpuVtex {
     /// # Errors
     /// [`RuntimeError::Limit`] when the packed texture is larger than one storage binding of the
     /// device (128 MiB on core WebGPU) or does not fit its memory.
+    #[cfg(all(feature = "blocking", not(target_arch = "wasm32")))]
     pub fn upload(
         device: &Device,
         queue: &Queue,
         file: &VtexFile,
         options: &LoadOptions,
     ) -> Result<Self, RuntimeError> {
+        let uploaded = Self::upload_async(device, queue, file, options);
+        crate::device::block_on(device, uploaded)
+    }
+
+    /// As `GpuVtex::upload`, for callers that must not block.
+    ///
+    /// # Errors
+    /// [`RuntimeError::Limit`] when the packed texture is larger than one storage binding of the
+    /// device (128 MiB on core WebGPU) or does not fit its memory.
+    pub async fn upload_async(
+        device: &Device,
+        queue: &Queue,
+        file: &VtexFile,
+        options: &LoadOptions,
+    ) -> Result<Self, RuntimeError> {
         let words = vtex_shaders::pack(file, &options.pack);
-        let bytes = bytemuck::cast_slice(&words);
-        let buffer = filled_buffer(device, queue, "vtex texture", bytes, BufferUsages::STORAGE)?;
-        let (layout, group) = checked(device, "texture binding", || {
+        let key = vtex_shaders::spec_key_with(file, &options.pack);
+        checked(device, "texture", || {
+            let bytes = bytemuck::cast_slice(&words);
+            let storage = BufferUsages::STORAGE;
+            let buffer = filled_buffer(device, queue, "vtex texture", bytes, storage)?;
             let layout = texture_layout(device);
             let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("vtex texture"),
@@ -66,14 +84,14 @@ impl GpuVtex {
                     resource: buffer.as_entire_binding(),
                 }],
             });
-            (layout, group)
-        })?;
-        Ok(Self {
-            key: vtex_shaders::spec_key_with(file, &options.pack),
-            buffer,
-            layout,
-            group,
+            Ok(Self {
+                key,
+                buffer,
+                layout,
+                group,
+            })
         })
+        .await
     }
 
     /// WGSL that declares the texture at `group` and `binding` and the function
@@ -125,30 +143,4 @@ fn texture_layout(device: &Device) -> BindGroupLayout {
             count: None,
         }],
     })
-}
-
-/// Several textures in one run of words.
-#[derive(Debug, Default)]
-pub(crate) struct PackedTextures {
-    /// All words.
-    pub(crate) words: Vec<u32>,
-    /// First word of each texture.
-    pub(crate) first_words: Vec<u32>,
-    /// Union of [`SpecKey::features`].
-    pub(crate) features: u32,
-}
-
-impl PackedTextures {
-    /// Packs `textures` one after the other; their offsets are relative, so they can be moved.
-    pub(crate) fn new(textures: &[(VtexFile, LoadOptions)]) -> Result<Self, RuntimeError> {
-        let mut packed = Self::default();
-        for (file, options) in textures {
-            let first = u32::try_from(packed.words.len())
-                .map_err(|_| RuntimeError::Limit("textures of more than 16 GiB".to_owned()))?;
-            packed.first_words.push(first);
-            packed.words.extend(vtex_shaders::pack(file, &options.pack));
-            packed.features |= vtex_shaders::spec_key_with(file, &options.pack).features;
-        }
-        Ok(packed)
-    }
 }

@@ -13,7 +13,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
-use vtex_baker::{BakeConfig, Painter, Resources, bake};
+use vtex_baker::{BakeConfig, Resources, bake, oracle::Painter};
 use vtex_format::VtexFile;
 use vtex_runtime::{BatchQuery, BatchSampler, FilterMode, Gpu, LoadOptions, Trust};
 use vtex_shaders::{PackOptions, cpu, pack};

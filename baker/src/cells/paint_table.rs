@@ -4,7 +4,10 @@ use std::collections::BTreeMap;
 
 use vtex_format::{Gradient, PaintRecord};
 
-use crate::drawing::Paint;
+use crate::{
+    coverage::placed::{Placed, PlacedKind},
+    drawing::Paint,
+};
 
 /// Paints by the bits of what they are.
 #[derive(Debug, Default)]
@@ -83,6 +86,25 @@ impl PaintTable {
     pub(crate) fn into_records(self) -> (Vec<PaintRecord>, Vec<f32>) {
         (self.paints, self.numbers)
     }
+}
+
+/// The paint of each item, or for a patch the index of its image, the first of which is
+/// `first_patch`.
+pub(crate) fn number_paints(
+    placed: &[Placed],
+    first_patch: u32,
+    paints: &mut PaintTable,
+) -> Vec<u32> {
+    let mut patches = first_patch..;
+    placed
+        .iter()
+        .map(|item| match &item.kind {
+            PlacedKind::Shape { paint, .. } => paints.intern(paint),
+            PlacedKind::Patch => patches.next().unwrap_or(u32::MAX),
+            // A clip is never painted; any number does.
+            PlacedKind::Clip => 0,
+        })
+        .collect()
 }
 
 /// Source-over of straight-alpha colours, on the encoded values.

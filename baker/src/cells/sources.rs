@@ -1,53 +1,37 @@
-//! What the file stores of curves: outlines, each once, and the cells they are cut to.
+//! The outlines that the file stores instead of curve records: each once, and the cells it is cut
+//! to.
 
-use kurbo::Point;
-use vtex_format::{CurveSources, SourceOutline, SourceRecord, SourceSegment};
+use vtex_format::{CurveLattice, CurveSources, SourceRecord};
 
-use crate::{
-    coverage::{
-        cover::Cover,
-        curves::lower::{LoweredOutline, Segment},
-    },
-    drawing::FillRule,
+use super::{input::CellInput, lists::CellLists};
+use crate::coverage::{
+    cover::Cover,
+    curve_lattice::{curve_lattice, flatness_units},
+    grid::Lattice,
+    scales::Scales,
 };
 
-/// A lowered outline as stored; `None` when it reaches further than the format's integers, or is
-/// empty.
-pub(crate) fn source_outline(lowered: &LoweredOutline, rule: FillRule) -> Option<SourceOutline> {
-    let segments: Option<Vec<SourceSegment>> = lowered.segments.iter().map(segment).collect();
-    Some(SourceOutline {
-        even_odd: rule == FillRule::EvenOdd,
-        segments: segments.filter(|segments| !segments.is_empty())?,
-    })
-}
-
-fn segment(segment: &Segment) -> Option<SourceSegment> {
-    let [start, end] = [segment.start, segment.end].map(lattice_point);
-    let control = match segment.control {
-        Some(control) => Some(lattice_point(control)?),
-        None => None,
-    };
-    let (from, to) = if segment.direction > 0 {
-        (start?, end?)
-    } else {
-        (end?, start?)
-    };
-    Some(SourceSegment { from, control, to })
-}
-
-/// A point of the lattice; `None` beyond 32 bits.
-fn lattice_point(point: Point) -> Option<[i32; 2]> {
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "lowered points are integers, and larger ones are refused"
-    )]
-    let number = |x: f64| (x.abs() < f64::from(i32::MAX)).then_some(x as i32);
-    Some([number(point.x)?, number(point.y)?])
+/// The lattice of curve records, if there are any, and the outlines that a reader makes them from,
+/// where it can.
+pub(crate) fn stored_curves(
+    input: &CellInput<'_>,
+    lists: &CellLists,
+    lattice: &Lattice,
+    scales: &Scales,
+) -> (Option<CurveLattice>, Option<CurveSources>) {
+    let curve_lattice =
+        curve_lattice(input.placed, lattice, scales).filter(|_| !lists.curves.is_empty());
+    let sources = curve_lattice.and_then(|curves| {
+        let flatness = flatness_units(lattice, curves, scales.longer_side_px);
+        sources(input.covers, &lists.sources, flatness)
+            .filter(|sources| sources.is_cuttable(&lattice.grid, curves))
+    });
+    (curve_lattice, sources)
 }
 
 /// The sources of `records`, whose outlines are items; `None` where an outline is not to be had,
 /// so that the file holds the records themselves.
-pub(crate) fn sources(
+fn sources(
     covers: &[Cover],
     records: &[SourceRecord],
     flatness_units: f32,

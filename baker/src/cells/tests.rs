@@ -10,8 +10,8 @@ use crate::{
     config::{BakeConfig, Mode, Resources},
     coverage::{
         grid::Lattice,
-        judge::{Coverage, Verdict},
         placed::{Placed, PlacedKind, place},
+        verdict::{Coverage, Verdict},
     },
     drawing::{Drawing, FillRule, Item, tree::Tree},
     geometry::line_box_distance,
@@ -389,11 +389,13 @@ fn corpus_files_are_listed_right() {
     };
     for path in names.iter().step_by(every) {
         let svg = std::fs::read(path).unwrap();
-        let Ok(mut drawing) = crate::draw(&svg, &config, &Resources::default(), &|_| ()) else {
+        let Ok(mut drawing) = crate::pipeline::draw(&svg, &config, &Resources::default(), &|_| ())
+        else {
             println!("not drawn: {}", path.display());
             continue;
         };
-        let mut again = crate::draw(&svg, &config, &Resources::default(), &|_| ()).unwrap();
+        let mut again =
+            crate::pipeline::draw(&svg, &config, &Resources::default(), &|_| ()).unwrap();
         for drawing in [&mut drawing, &mut again] {
             drawing.items.retain(|item| matches!(item, Item::Shape(_)));
             drawing.tree = Tree::flat(drawing.items.len());

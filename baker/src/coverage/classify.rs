@@ -7,24 +7,16 @@ use kurbo::{BezPath, Line, Rect};
 use crate::{
     coverage::{
         grid::Lattice,
-        msdf::{EDGE_ERROR_TEXELS, Edge, Rows, edges_of},
+        msdf::{EDGE_ERROR_TEXELS, Edge, Rows, TileShape, TileSpec, edges_of},
         placed::Placed,
+        scales::{Distances, Scales},
     },
-    geometry::{clip_line, flatten, floor_index, line_box_distance},
+    geometry::{Region, clip_line, flatten, line_box_distance, pieces},
 };
 
 /// How far flattening may move an outline when cells are listed, in steps. Below what
 /// [`EDGE_ERROR_TEXELS`] adds to the margin.
 const LISTING_TOLERANCE: f64 = 0.02;
-
-/// Distances in lattice steps at which an edge concerns a cell.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Distances {
-    /// Within it some filter mode sees partial coverage: the cell lists the shape.
-    pub(crate) margin: f64,
-    /// Within it the edge takes part in the cell's tile.
-    pub(crate) reach: f64,
-}
 
 /// A shape against the grid. Cells are indices, row by row.
 #[derive(Debug, Default)]
@@ -42,6 +34,15 @@ pub(crate) struct ShapeCells {
 }
 
 impl ShapeCells {
+    /// The shape's part in the tile of `cell`; `region` is what was classified.
+    pub(crate) fn tile_shape<'a>(&'a self, cell: u32, region: &'a Region) -> TileShape<'a> {
+        TileShape {
+            edges: self.edges_near(cell).collect(),
+            region,
+            rows: &self.rows,
+        }
+    }
+
     /// Edges that take part in a cell's tile.
     pub(crate) fn edges_near(&self, cell: u32) -> impl Iterator<Item = &Edge> {
         let first = self.near.partition_point(|near| near.0 < cell);
@@ -49,6 +50,24 @@ impl ShapeCells {
         self.near[first..last]
             .iter()
             .map(|near| &self.edges[near.1 as usize])
+    }
+}
+
+/// The tile of `cell`, of shapes that [`ShapeCells::tile_shape`] gives.
+pub(crate) fn tile_spec<'a>(
+    cell: u32,
+    lattice: &Lattice,
+    scales: &Scales,
+    shapes: Vec<TileShape<'a>>,
+) -> TileSpec<'a> {
+    let columns = lattice.grid.size_cells[0];
+    let steps = lattice.grid.texels_per_cell;
+    TileSpec {
+        origin: [cell % columns * steps, cell / columns * steps],
+        steps,
+        range: scales.range,
+        reach: scales.distances.reach,
+        shapes,
     }
 }
 
@@ -112,7 +131,7 @@ fn cells_near(line: Line, lattice: &Lattice, reach: f64) -> Vec<u32> {
     let Some(line) = clip_line(line, lattice.canvas.inflate(beyond, beyond)) else {
         return near;
     };
-    for piece in split(line, lattice.cell_steps()) {
+    for piece in pieces(line, lattice.cell_steps()) {
         let area = Rect::from_points(piece.p0, piece.p1).inflate(reach, reach);
         let Some([columns, rows]) = lattice.cells_in(area) else {
             continue;
@@ -126,12 +145,4 @@ fn cells_near(line: Line, lattice: &Lattice, reach: f64) -> Vec<u32> {
         }
     }
     near
-}
-
-/// `line` in pieces no longer than `longest`, so that the box around each is mostly line.
-fn split(line: Line, longest: f64) -> impl Iterator<Item = Line> {
-    let pieces = ((line.p1 - line.p0).hypot() / longest).ceil().max(1.0);
-    #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
-    let at = move |k: usize| line.p0.lerp(line.p1, k as f64 / pieces);
-    (0..floor_index(pieces)).map(move |k| Line::new(at(k), at(k + 1)))
 }

@@ -2,38 +2,23 @@
 
 use kurbo::Affine;
 use rayon::prelude::*;
-use vtex_format::{CurveLattice, SourceOutline, Warning, WarningCode, cut::CellCurves};
+use vtex_format::{CurveLattice, SourceOutline, cut::CellCurves};
 
-use crate::{
-    cells::sources::source_outline,
-    coverage::{
-        classify::{ShapeCells, classify},
-        curves::{
-            CurveError,
-            lower::LoweredOutline,
-            record::encode_record,
-            split::split,
-            sweep::{CutParams, cut_to_cells},
-        },
-        grid::Lattice,
-        judge::{Coverage, PIXELS_AT_ZOOM_1, Verdict},
-        placed::{Placed, PlacedKind, place_item},
-        scales::Scales,
+use crate::coverage::{
+    classify::{ShapeCells, classify},
+    curve_lattice::{curve_lattice, flatness_units},
+    curves::{
+        CurveError,
+        lower::LoweredOutline,
+        record::encode_record,
+        source::source_outline,
+        split::split,
+        sweep::{CutParams, cut_to_cells},
     },
-    drawing::{Drawing, Item, Patch, to_f32},
-    geometry::floor_index,
-    raster::patch::{self, PatchSettings},
+    grid::Lattice,
+    placed::{Placed, PlacedKind},
+    scales::Scales,
 };
-
-/// How far lowering may move a curve, and making lines of flat ones, in pixels at maximum zoom.
-const TOLERANCE_PX: f64 = 0.05;
-/// Width of a unit of curve records in pixels at maximum zoom, unless records cannot be that fine.
-/// A point is off by half a unit.
-const UNIT_PX: f64 = 0.04;
-/// Units along a cell at least, so that rounding never shows at low zooms either.
-const MIN_UNITS_PER_CELL: usize = 1024;
-/// No tolerance is smaller: a unit is what rounding costs.
-const MIN_TOLERANCE_UNITS: f64 = 0.5;
 
 /// Segments of one shape in one cell; more would leave no room in the cell's list.
 const MAX_CELL_SEGMENTS: usize = vtex_format::MAX_LIST_ITEMS as usize * 3 / 4;
@@ -53,7 +38,7 @@ pub(crate) struct Cover {
 
 impl Cover {
     /// Of what covers the whole canvas.
-    fn everywhere(lattice: &Lattice) -> Self {
+    pub(crate) fn everywhere(lattice: &Lattice) -> Self {
         let count = u32::try_from(lattice.cell_count()).unwrap_or(u32::MAX);
         let mut cover = Self::default();
         cover.cells.full = (0..count).collect();
@@ -75,52 +60,14 @@ impl Cover {
     }
 }
 
-/// Within how many units of its chord a quadratic may stay to become a line, and a quadratic of the
-/// cubic it stands for. A number that a file holds exactly.
-pub(crate) fn flatness_units(lattice: &Lattice, curve_lattice: CurveLattice, max_zoom: f32) -> f32 {
-    let units_per_step = f64::from(curve_lattice.units_per_cell) / lattice.cell_steps();
-    let units_per_px =
-        units_per_step * lattice.longer_steps() / (PIXELS_AT_ZOOM_1 * f64::from(max_zoom));
-    to_f32((TOLERANCE_PX * units_per_px).max(MIN_TOLERANCE_UNITS))
-}
-
-/// The lattice of curve records on `lattice`, or `None` where nothing needs one.
-pub(crate) fn curve_lattice(
-    placed: &[Placed],
-    lattice: &Lattice,
-    scales: &Scales,
-    max_zoom: f32,
-) -> Option<CurveLattice> {
-    if !placed.iter().any(Placed::is_curves) {
-        return None;
-    }
-    // Wider ramps than a cell are cut off; mips serve such footprints unless they are tiny.
-    let margin_cells = (scales.distances.margin / lattice.cell_steps()).min(1.0);
-    let finest = CurveLattice::new(to_f32(margin_cells))?;
-    // Finer than what anyone sees costs bytes: the low bits of coordinates are noise.
-    let cells = lattice.longer_steps() / lattice.cell_steps();
-    let wanted = PIXELS_AT_ZOOM_1 * f64::from(max_zoom) / (UNIT_PX * cells);
-    if wanted >= f64::from(finest.units_per_cell) {
-        return Some(finest);
-    }
-    let units_per_cell = floor_index(wanted.ceil()).max(MIN_UNITS_PER_CELL);
-    #[expect(clippy::cast_precision_loss, reason = "a few thousand")]
-    let margin_units = floor_index((margin_cells * units_per_cell as f64).ceil());
-    Some(CurveLattice {
-        units_per_cell: u32::try_from(units_per_cell).ok()?,
-        margin_units: u32::try_from(margin_units).ok()?,
-    })
-}
-
 /// Covers every item; an error where a shape cannot be curves.
 pub(crate) fn cover(
     placed: &[Placed],
     lattice: &Lattice,
     scales: &Scales,
-    max_zoom: f32,
 ) -> Vec<Result<Cover, CurveError>> {
-    let cutter = curve_lattice(placed, lattice, scales, max_zoom)
-        .map(|curve_lattice| Cutter::new(lattice, curve_lattice, max_zoom));
+    let cutter = curve_lattice(placed, lattice, scales)
+        .map(|curve_lattice| Cutter::new(lattice, curve_lattice, scales));
     let cover_one = |placed: &Placed| {
         if placed.kind == PlacedKind::Patch {
             return Ok(Cover::default());
@@ -136,64 +83,6 @@ pub(crate) fn cover(
     placed.par_iter().map(cover_one).collect()
 }
 
-/// Puts patches in the place of shapes that cannot be curves.
-pub(crate) fn patch_failures(
-    covers: Vec<Result<Cover, CurveError>>,
-    drawing: &mut Drawing,
-    placed: &mut [Placed],
-    lattice: &Lattice,
-    settings: PatchSettings,
-) -> Vec<Cover> {
-    let failures = covers.iter().filter(|cover| cover.is_err()).count();
-    #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
-    let share = 1.0 / failures.max(1) as f64;
-    let longer = drawing.canvas_size[0].max(drawing.canvas_size[1]);
-    let items = drawing.items.iter_mut().zip(placed);
-    let mut resolved = Vec::with_capacity(covers.len());
-    for (cover, (item, placed)) in covers.into_iter().zip(items) {
-        resolved.push(cover.unwrap_or_else(|_| {
-            if matches!(item, Item::Clip(_)) {
-                drawing.warnings.push(clip_warning());
-                return Cover::everywhere(lattice);
-            }
-            // A shape of which nothing shows is listed nowhere.
-            if let Some(patch) = patch::of_shape(item, settings, share) {
-                drawing
-                    .warnings
-                    .push(failure_warning(&patch, drawing.canvas_size));
-                *item = Item::Patch(patch);
-                *placed = place_item(item, lattice, longer, Verdict::forced(Coverage::Msdf));
-            }
-            Cover::default()
-        }));
-    }
-    resolved
-}
-
-fn clip_warning() -> Warning {
-    Warning {
-        code: WarningCode::PathFallback,
-        feature: "clipPath".into(),
-        element: String::new(),
-        message: "an outline to clip to is too complex for curves; nothing is clipped to it".into(),
-        area: 0.0,
-    }
-}
-
-fn failure_warning(patch: &Patch, canvas_size: [f64; 2]) -> Warning {
-    let [width, height] = patch.image.size;
-    Warning {
-        code: WarningCode::PathFallback,
-        feature: patch.feature.clone(),
-        element: patch.element.clone(),
-        message: format!(
-            "this outline is too complex for curves; it is stored as a raster of {width} x {height} \
-             texels"
-        ),
-        area: patch.area(canvas_size),
-    }
-}
-
 /// Cuts outlines to cells.
 struct Cutter {
     params: CutParams,
@@ -201,13 +90,17 @@ struct Cutter {
 }
 
 impl Cutter {
-    fn new(lattice: &Lattice, curve_lattice: CurveLattice, max_zoom: f32) -> Self {
+    fn new(lattice: &Lattice, curve_lattice: CurveLattice, scales: &Scales) -> Self {
         let units_per_step = f64::from(curve_lattice.units_per_cell) / lattice.cell_steps();
         Self {
             params: CutParams {
                 size_cells: lattice.grid.size_cells,
                 lattice: curve_lattice,
-                flatness_units: f64::from(flatness_units(lattice, curve_lattice, max_zoom)),
+                flatness_units: f64::from(flatness_units(
+                    lattice,
+                    curve_lattice,
+                    scales.longer_side_px,
+                )),
             },
             units_from_steps: Affine::scale(units_per_step),
         }
@@ -259,16 +152,5 @@ impl Cutter {
             source,
             firsts,
         })
-    }
-}
-
-impl Placed {
-    /// Whether it is to be curve records.
-    pub(crate) fn is_curves(&self) -> bool {
-        match &self.kind {
-            PlacedKind::Shape { verdict, .. } => verdict.coverage == Coverage::Curves,
-            PlacedKind::Clip => true,
-            PlacedKind::Patch => false,
-        }
     }
 }

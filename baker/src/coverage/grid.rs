@@ -3,7 +3,7 @@
 use kurbo::{Affine, Rect};
 use vtex_format::{Grid, MAX_TEXELS_PER_CELL};
 
-use crate::{drawing::to_f32, geometry::floor_index};
+use crate::number::{floor_index, to_f32};
 
 /// Texels along a cell unless the grid would leave [`MIN_CELLS`]..=[`MAX_CELLS`]. Measured on the
 /// Tiger at 1024 texels for 4, 6 and 8: 970, 905 and 889 KiB stored, 4.1, 4.3 and 4.8 MiB raw,
@@ -70,10 +70,16 @@ impl Lattice {
             cell_from_uv_offset: LATTICE_OFFSET,
             texels_per_cell,
         };
-        // The stored f32 numbers, not the ideal ones, place the geometry.
-        let n = f64::from(texels_per_cell);
-        let [sx, sy] = scale.map(|s| f64::from(s) * n);
-        let [ox, oy] = LATTICE_OFFSET.map(|o| f64::from(o) * n);
+        Self::of_grid(grid, canvas_size)
+    }
+
+    /// The lattice of a grid with these numbers under a canvas of `canvas_size` user units.
+    pub(crate) fn of_grid(grid: Grid, canvas_size: [f64; 2]) -> Self {
+        // The stored f32 numbers, not the ideal ones, place the geometry: it then lies where
+        // evaluators look for it.
+        let n = f64::from(grid.texels_per_cell);
+        let [sx, sy] = grid.cell_from_uv_scale.map(|s| f64::from(s) * n);
+        let [ox, oy] = grid.cell_from_uv_offset.map(|o| f64::from(o) * n);
         Self {
             grid,
             lattice_from_canvas: Affine::new([

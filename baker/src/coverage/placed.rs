@@ -6,13 +6,14 @@ use rayon::prelude::*;
 use crate::{
     coverage::{
         grid::Lattice,
-        judge::{Coverage, Verdict},
+        verdict::{Coverage, Verdict},
     },
     drawing::{Drawing, FillRule, Item, Paint},
     geometry::{
         Region,
         prepare::{Note, Prepared, clean, prepare},
     },
+    number::floor_index,
 };
 
 /// One item in lattice steps. Its index is its place in the painter's order.
@@ -62,6 +63,22 @@ impl Placed {
         matches!(self.kind, PlacedKind::Shape { .. })
     }
 
+    /// Whether it is to be curve records.
+    pub(crate) fn is_curves(&self) -> bool {
+        match &self.kind {
+            PlacedKind::Shape { verdict, .. } => verdict.coverage == Coverage::Curves,
+            PlacedKind::Clip => true,
+            PlacedKind::Patch => false,
+        }
+    }
+
+    /// Longer side in texels.
+    pub(crate) fn size_texels(&self) -> u32 {
+        let bounds = self.bounds();
+        let size = bounds.width().max(bounds.height()).ceil();
+        u32::try_from(floor_index(size)).unwrap_or(u32::MAX)
+    }
+
     /// Box in steps.
     pub(crate) fn bounds(&self) -> Rect {
         self.region.bounds()
@@ -70,7 +87,7 @@ impl Placed {
 
 /// Prepares and places every item of `drawing`.
 pub(crate) fn place(drawing: &Drawing, lattice: &Lattice, verdicts: &[Verdict]) -> Vec<Placed> {
-    let longer = drawing.canvas_size[0].max(drawing.canvas_size[1]);
+    let longer = drawing.longer_side();
     let items = drawing.items.par_iter().zip(verdicts);
     items
         .map(|(item, &verdict)| place_item(item, lattice, longer, verdict))

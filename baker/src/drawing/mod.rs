@@ -8,7 +8,10 @@ pub(crate) mod tree;
 use kurbo::{BezPath, Rect};
 use vtex_format::{Image, Warning};
 
+use crate::number::{count, to_f32};
+
 pub(crate) use paint::Paint;
+
 use tree::Tree;
 
 /// A whole drawing, back to front.
@@ -24,9 +27,14 @@ pub(crate) struct Drawing {
     pub(crate) warnings: Vec<Warning>,
 }
 
-#[cfg(test)]
 impl Drawing {
+    /// Length of the canvas' longer side.
+    pub(crate) fn longer_side(&self) -> f64 {
+        self.canvas_size[0].max(self.canvas_size[1])
+    }
+
     /// Items without groups.
+    #[cfg(test)]
     pub(crate) fn flat(canvas_size: [f64; 2], items: Vec<Item>) -> Self {
         Self {
             canvas_size,
@@ -90,6 +98,16 @@ pub(crate) enum FillRule {
     EvenOdd,
 }
 
+impl FillRule {
+    /// Whether a point of this winding is inside, SVG 2 sec. 13.3.2.
+    pub(crate) fn fills(self, winding: i32) -> bool {
+        match self {
+            Self::NonZero => winding != 0,
+            Self::EvenOdd => winding % 2 != 0,
+        }
+    }
+}
+
 /// A subtree as a raster image at its place in the painter's order.
 #[derive(Debug)]
 pub(crate) struct Patch {
@@ -109,14 +127,7 @@ impl Patch {
         let texels = self.image.mips.first().map_or(&[][..], |level| level);
         let alphas = texels.iter().skip(3).step_by(4);
         let clear = alphas.filter(|&&alpha| alpha == 0).count();
-        #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
-        let shown = 1.0 - clear as f64 / (texels.len() / 4).max(1) as f64;
+        let shown = 1.0 - count(clear) / count((texels.len() / 4).max(1));
         to_f32(shown * self.rect.area() / (canvas_size[0] * canvas_size[1])).clamp(0.0, 1.0)
     }
-}
-
-/// A coordinate as the file stores it.
-#[expect(clippy::cast_possible_truncation, reason = "stored as f32")]
-pub(crate) fn to_f32(x: f64) -> f32 {
-    x as f32
 }

@@ -2,7 +2,7 @@
 
 use kurbo::{BezPath, Line, ParamCurve, PathEl, PathSeg, Point, Rect};
 
-use super::floor_index;
+use crate::number::{count, floor_index};
 
 /// Most lines one segment is cut into; a segment that would need more is coarser than asked.
 const MAX_LINES: f64 = 65_536.0;
@@ -28,8 +28,7 @@ pub(crate) fn flatten_segment(segment: PathSeg, tolerance: f64, points: &mut Pol
         .ceil()
         .clamp(1.0, MAX_LINES);
     for k in 1..floor_index(lines) {
-        #[expect(clippy::cast_precision_loss, reason = "at most MAX_LINES")]
-        let t = k as f64 / lines;
+        let t = count(k) / lines;
         points.push(segment.eval(t));
     }
     points.push(segment.end());
@@ -101,4 +100,12 @@ pub(crate) fn clip_line(line: Line, window: Rect) -> Option<Line> {
         _ => line.p0 + t * d,
     };
     Some(Line::new(at(enter), at(leave)))
+}
+
+/// `line` in equal pieces no longer than `longest`, so that the box around each is mostly line.
+/// Pieces that follow each other share the bit-exact point.
+pub(crate) fn pieces(line: Line, longest: f64) -> impl Iterator<Item = Line> {
+    let pieces = ((line.p1 - line.p0).hypot() / longest).ceil().max(1.0);
+    let at = move |k: usize| line.p0.lerp(line.p1, count(k) / pieces);
+    (0..floor_index(pieces)).map(move |k| Line::new(at(k), at(k + 1)))
 }

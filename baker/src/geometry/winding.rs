@@ -6,8 +6,10 @@
 
 use kurbo::{BezPath, ParamCurve, PathSeg, Point, Rect};
 
-use super::floor_index;
-use crate::drawing::FillRule;
+use crate::{
+    drawing::FillRule,
+    number::{count, floor_index},
+};
 
 /// Most rows a [`Region`] sorts its pieces into; bounds memory for tall thin drawings.
 const MAX_ROWS: f64 = 4096.0;
@@ -217,21 +219,6 @@ impl Region {
         let right = crossings.partition_point(|crossing| crossing.0 <= x);
         right > 0 && self.rule.fills(crossings[right - 1].1)
     }
-}
-
-impl FillRule {
-    /// Whether a point of this winding is inside, SVG 2 sec. 13.3.2.
-    pub(crate) fn fills(self, winding: i32) -> bool {
-        match self {
-            Self::NonZero => winding != 0,
-            Self::EvenOdd => winding % 2 != 0,
-        }
-    }
-}
-
-#[expect(clippy::cast_precision_loss, reason = "counts stay far below 2^52")]
-fn count(n: usize) -> f64 {
-    n as f64
 }
 
 /// Cuts `segment` at its extrema in y and leaves out what is horizontal.

@@ -3,26 +3,112 @@
 use kurbo::{Rect, Shape as _};
 use vtex_format::{
     COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CurveLattice, FILL_EVEN_ODD, FILL_NON_ZERO,
-    Finding, Image, Meta, Outline, Preparation, Provenance, SamplerSettings, ShapeRecord,
-    ShapeReport, Warning, WarningCode,
+    Image, LayerRecord, Meta, Outline, SamplerSettings, ShaderBlob, ShapeRecord, SpecKey, VtexFile,
+    Warning, WarningCode,
 };
+use vtex_shaders::{SpecParts, shader_blob, spec_key_from_parts};
 
+use super::{layout::Layout, provenance::provenance};
 use crate::{
-    cells::{CellInput, CellLists, packing::Packing},
+    cells::{
+        CellInput, CellLists, packing::Packing, paint_table::PaintTable, sources::stored_curves,
+    },
     config::BakeConfig,
     coverage::{
         grid::Lattice,
-        judge::{Coverage, size_texels},
         placed::{Placed, PlacedKind},
         scales::Scales,
+        verdict::Coverage,
     },
-    drawing::{Drawing, FillRule, Item, ShapeSource, to_f32},
+    drawing::{Drawing, FillRule, Item, Paint},
+    error::BakeError,
     geometry::prepare::Note,
-    raster::{canvas, patch::SHAPE_FEATURE},
+    number::to_f32,
+    raster::canvas,
 };
 
+/// What the stages before have made.
+#[derive(Debug)]
+pub(super) struct Stages<'a> {
+    /// The drawing and its grid.
+    pub(super) layout: &'a Layout,
+    /// What the cells' lists were made from.
+    pub(super) input: &'a CellInput<'a>,
+    /// The lists.
+    pub(super) lists: CellLists,
+    /// Texels of the lists' tiles.
+    pub(super) tiles: Vec<u8>,
+    /// One a layer.
+    pub(super) layers: Vec<LayerRecord>,
+    /// The paints that lists name.
+    pub(super) paints: PaintTable,
+}
+
+/// The file, its mips apart: with `has_mips` image 0 is kept free for them.
+pub(super) fn file(
+    mut drawing: Drawing,
+    stages: Stages<'_>,
+    config: &BakeConfig,
+    source_hash: [u8; 32],
+    has_mips: bool,
+) -> Result<VtexFile, BakeError> {
+    let Stages {
+        layout,
+        input,
+        lists,
+        tiles,
+        layers,
+        mut paints,
+    } = stages;
+    let Layout {
+        lattice,
+        scales,
+        placed,
+        ..
+    } = layout;
+    let outline = config.outline_texels.map(|width_texels| Outline {
+        width_texels,
+        paint: paints.intern(&config.stroke_color.map_or(Paint::BLACK, Paint::Solid)),
+    });
+    let warnings = warnings(&mut drawing, placed, input.packing, &lists);
+    let (curve_lattice, sources) = stored_curves(input, &lists, lattice, scales);
+    let meta = meta(&drawing, config, lattice, curve_lattice, scales, outline);
+    let (paints, gradients) = paints.into_records();
+    let (spec, shader) = specialised(&SpecParts {
+        sampler: &meta.sampler,
+        texels_per_cell: lattice.grid.texels_per_cell,
+        paints: &paints,
+        cells: &lists.words,
+        entries: &lists.entries,
+        canvas_mips: has_mips,
+    })?;
+    Ok(VtexFile {
+        meta,
+        spec,
+        shader,
+        paints,
+        gradients,
+        shapes: shape_records(input, lattice),
+        layers,
+        cells: lists.words,
+        entries: lists.entries,
+        tiles,
+        curves: lists.curves,
+        sources,
+        provenance: Some(provenance(&drawing, placed, config, source_hash, warnings)),
+        images: images(drawing, has_mips),
+    })
+}
+
+/// The shader's key and text.
+fn specialised(parts: &SpecParts<'_>) -> Result<(SpecKey, ShaderBlob), BakeError> {
+    let spec = spec_key_from_parts(parts);
+    let shader = shader_blob(&spec).map_err(|error| BakeError::Shader(error.to_string()))?;
+    Ok((spec, shader))
+}
+
 /// The file's general record.
-pub(crate) fn meta(
+fn meta(
     drawing: &Drawing,
     config: &BakeConfig,
     lattice: &Lattice,
@@ -47,7 +133,7 @@ pub(crate) fn meta(
 }
 
 /// One record an item that is painted.
-pub(crate) fn shape_records(input: &CellInput<'_>, lattice: &Lattice) -> Vec<ShapeRecord> {
+fn shape_records(input: &CellInput<'_>, lattice: &Lattice) -> Vec<ShapeRecord> {
     let record = |((item, &rank), &paint_or_image): ((&Placed, &u32), &u32)| {
         let segments = item.outline.segments().count();
         let layer = input.layer_of_rank[rank as usize];
@@ -88,7 +174,7 @@ fn bounds_uv(area: Rect, lattice: &Lattice) -> [f32; 4] {
 }
 
 /// Warnings of the drawing and of what happened since.
-pub(crate) fn warnings(
+fn warnings(
     drawing: &mut Drawing,
     placed: &[Placed],
     packing: &Packing,
@@ -142,119 +228,11 @@ fn share(of: Rect, canvas: Rect) -> f32 {
 }
 
 /// A place for the canvas' mips, if there will be any, and the patches.
-pub(crate) fn images(drawing: Drawing, mips: bool) -> Vec<Image> {
+fn images(drawing: Drawing, mips: bool) -> Vec<Image> {
     let patches = drawing.items.into_iter().filter_map(|item| match item {
         Item::Patch(patch) => Some(patch.image),
         Item::Shape(_) | Item::Clip(_) => None,
     });
     let mips = mips.then(canvas::no_mips);
     mips.into_iter().chain(patches).collect()
-}
-
-/// Where the file comes from.
-pub(crate) fn provenance(
-    drawing: &Drawing,
-    placed: &[Placed],
-    config: &BakeConfig,
-    source_hash: [u8; 32],
-    warnings: Vec<Warning>,
-) -> Provenance {
-    Provenance {
-        source_hash,
-        tool: concat!("vtex-baker ", env!("CARGO_PKG_VERSION")).into(),
-        options: options(config),
-        shapes: drawing
-            .items
-            .iter()
-            .zip(placed)
-            .filter_map(report)
-            .collect(),
-        warnings,
-    }
-}
-
-/// `None` of what is not painted.
-fn report((item, placed): (&Item, &Placed)) -> Option<ShapeReport> {
-    let (element, source) = match item {
-        Item::Shape(shape) => {
-            let source = match shape.source {
-                ShapeSource::Fill => "fill",
-                ShapeSource::Stroke => "stroke",
-            };
-            (&shape.element, source)
-        }
-        Item::Patch(patch) => (&patch.element, patch.feature.as_str()),
-        Item::Clip(_) => return None,
-    };
-    let report = ShapeReport {
-        element: element.clone(),
-        source: source.to_owned(),
-        ..ShapeReport::default()
-    };
-    match &placed.kind {
-        PlacedKind::Shape { note, verdict, .. } => Some(ShapeReport {
-            preparation: preparation(*note),
-            finding: verdict.finding,
-            size_texels: match verdict.coverage {
-                Coverage::Msdf => size_texels(placed),
-                Coverage::Curves => verdict.size_texels,
-            },
-            field_error: verdict.error,
-            ..report
-        }),
-        PlacedKind::Patch => Some(ShapeReport {
-            finding: match item {
-                Item::Patch(patch) if patch.feature == SHAPE_FEATURE => Finding::TooManySegments,
-                _ => Finding::None,
-            },
-            ..report
-        }),
-        PlacedKind::Clip => None,
-    }
-}
-
-fn preparation(note: Note) -> Preparation {
-    match note {
-        Note::AsDrawn => Preparation::AsDrawn,
-        Note::Simplified => Preparation::Simplified,
-        Note::SecondMethod => Preparation::SecondMethod,
-        Note::Failed => Preparation::Failed,
-    }
-}
-
-/// Every option by the name the command line gives it, sorted.
-fn options(config: &BakeConfig) -> Vec<(String, String)> {
-    let list = |values: &[f32]| {
-        let texts: Vec<String> = values.iter().map(f32::to_string).collect();
-        texts.join(",")
-    };
-    let color = |color: Option<[f32; 4]>| color.map_or("none".into(), |color| list(&color));
-    let address = config
-        .address
-        .map(|mode| format!("{mode:?}").to_lowercase());
-    let mut options: Vec<(String, String)> = [
-        ("address", address.join(",")),
-        ("error", config.error_px.to_string()),
-        ("fill-color", color(config.fill_color)),
-        ("mask", config.mask.to_string()),
-        ("max-zoom", config.max_zoom.to_string()),
-        ("merge", config.merge.to_string()),
-        ("mode", format!("{:?}", config.mode).to_lowercase()),
-        ("msdf-range", config.distance_range_texels.to_string()),
-        ("msdf-size", config.msdf_size.to_string()),
-        (
-            "outline",
-            config
-                .outline_texels
-                .map_or("none".into(), |w| w.to_string()),
-        ),
-        ("size", config.mip0_size.to_string()),
-        ("smoothing", config.smoothing.to_string()),
-        ("stroke-color", color(config.stroke_color)),
-        ("transform", list(&config.texture_matrix)),
-    ]
-    .map(|(name, value)| (name.into(), value))
-    .into();
-    options.sort();
-    options
 }

@@ -46,24 +46,14 @@ fn measure_tiger() {
         let last = std::sync::Mutex::new((Stage::Parse, Instant::now()));
         let observer = |stage: Stage| {
             let mut last = last.lock().unwrap();
-            println!(
-                "  {:?} {:.1} ms",
-                last.0,
-                last.1.elapsed().as_secs_f64() * 1e3
-            );
+            let elapsed_ms = last.1.elapsed().as_secs_f64() * 1e3;
+            println!("  {:?} {elapsed_ms:.1} ms", last.0);
             *last = (stage, Instant::now());
         };
         let file = assemble(drawing_of(&svg, &config), None, &config, [0; 32], &observer).unwrap();
         observer(Stage::Encode);
         let evaluator = Evaluator { file: &file };
-        let mut entries = 0;
-        let mut single = 0;
-        for i in 0..100_000 {
-            let uv = [f64::from(i % 317) / 317.0, f64::from(i / 317) / 317.0];
-            let (word, list, _) = evaluator.entries(uv);
-            entries += list.len();
-            single += usize::from(!matches!(word, vtex_format::CellWord::List { .. }));
-        }
+        let [entries, single] = listed(&evaluator);
         let picture = render(|uv| evaluator.point(uv), size, full, 4);
         write_png(&format!("tiger_{msdf_size}.png"), size, &picture);
         let zoom = [0.4, 0.3, 0.525, 0.425];
@@ -104,6 +94,18 @@ fn measure_tiger() {
     }
 }
 
+/// Entries that 100,000 lookups meet, and how many lookups meet no list.
+fn listed(evaluator: &Evaluator<'_>) -> [usize; 2] {
+    let (mut entries, mut single) = (0, 0);
+    for i in 0..100_000 {
+        let uv = [f64::from(i % 317) / 317.0, f64::from(i / 317) / 317.0];
+        let (word, list, _) = evaluator.entries(uv);
+        entries += list.len();
+        single += usize::from(!matches!(word, vtex_format::CellWord::List { .. }));
+    }
+    [entries, single]
+}
+
 /// One shape, tile by tile and by fdsm alone over the box of its tiles.
 #[test]
 #[ignore = "prints measurements"]
@@ -130,7 +132,7 @@ fn measure_against_fdsm() {
         drawing.tree = crate::drawing::tree::Tree::flat(1);
         let placed = {
             let forced =
-                crate::coverage::judge::Verdict::forced(crate::coverage::judge::Coverage::Msdf);
+                crate::coverage::verdict::Verdict::forced(crate::coverage::verdict::Coverage::Msdf);
             crate::coverage::placed::place(&drawing, &lattice, &[forced])
         };
         let area = placed[0].bounds();

@@ -9,10 +9,9 @@ use vtex_shaders::{FilterMode, PackOptions, cpu::Sampler, pack};
 
 use crate::{
     config::Mode,
-    drawing::color,
     raster::{
         mips::{self, LinearImage},
-        palette,
+        palette, texel,
     },
 };
 
@@ -95,7 +94,7 @@ fn raster_mips(raster: &Image, size: [u32; 2]) -> Image {
     let finest = LinearImage {
         size: raster.size,
         texels: texels
-            .map(|&texel| color::linear_from_stored(texel))
+            .map(|&texel| texel::linear_from_stored(texel))
             .collect(),
     };
     mips::chain(finest.reduced(size), WHOLE)
@@ -201,7 +200,7 @@ mod tests {
         let mut random = Random(7);
         let mut flat = 0;
         for _ in 0..20_000 {
-            let mut at = |low: f64, high: f64| crate::drawing::to_f32(random.within(low, high));
+            let mut at = |low: f64, high: f64| crate::number::to_f32(random.within(low, high));
             let low = [at(0.0, 0.97), at(0.0, 0.97)];
             let high = [low[0] + at(0.0, 0.03), low[1] + at(0.0, 0.03)];
             let Some(color) = sampler.flat_color(low, high) else {

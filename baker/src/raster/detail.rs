@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::{drawing::color, raster::mips::LinearImage};
+use crate::raster::{mips::LinearImage, texel};
 
 /// Codes of a stored channel by which a coarser raster, interpolated as lookups do, may differ.
 const MAX_ERROR: u8 = 2;
@@ -29,7 +29,7 @@ fn stands_for(coarse: &LinearImage, fine: &LinearImage) -> bool {
         let v = place(y, fine.size[1], coarse.size[1]);
         row.iter().enumerate().all(|(x, &texel)| {
             let found = bilinear(coarse, [place(x, fine.size[0], coarse.size[0]), v]);
-            let [a, b] = [texel, found].map(color::stored_from_linear);
+            let [a, b] = [texel, found].map(texel::stored_from_linear);
             a.iter().zip(b).all(|(a, b)| a.abs_diff(b) <= MAX_ERROR)
         })
     })

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use vtex_format::Image;
 
-use crate::drawing::color;
+use crate::raster::texel;
 
 /// Texels in linear light, premultiplied by alpha.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,11 +49,11 @@ impl LinearImage {
 
 /// Where one texel's extent lies among the finer ones along an axis.
 #[derive(Debug)]
-pub(crate) struct Span {
+struct Span {
     /// The first finer texel it touches.
-    pub(crate) first: usize,
-    /// Share that each finer texel has in it; their sum is 1, or less at the rim of an image.
-    pub(crate) weights: Vec<f32>,
+    first: usize,
+    /// Share that each finer texel has in it; their sum is 1.
+    weights: Vec<f32>,
 }
 
 #[expect(
@@ -80,7 +80,7 @@ fn spans(fine: u32, coarse: u32) -> Vec<Span> {
 }
 
 /// Weighted sum of whole rows of `width` texels.
-pub(crate) fn row_average(texels: &[[f32; 4]], width: usize, row: &Span) -> Vec<[f32; 4]> {
+fn row_average(texels: &[[f32; 4]], width: usize, row: &Span) -> Vec<[f32; 4]> {
     let mut sums = vec![[0.0; 4]; width];
     for (texels, &weight) in texels.chunks_exact(width).skip(row.first).zip(&row.weights) {
         for (sum, texel) in sums.iter_mut().zip(texels) {
@@ -91,7 +91,7 @@ pub(crate) fn row_average(texels: &[[f32; 4]], width: usize, row: &Span) -> Vec<
 }
 
 /// Weighted sum of the texels of one row.
-pub(crate) fn average(texels: &[[f32; 4]], span: &Span) -> [f32; 4] {
+fn average(texels: &[[f32; 4]], span: &Span) -> [f32; 4] {
     let mut sum = [0.0; 4];
     for (texel, &weight) in texels[span.first..].iter().zip(&span.weights) {
         add(&mut sum, texel, weight);
@@ -125,7 +125,7 @@ fn stored(level: &LinearImage) -> Vec<u8> {
     level
         .texels
         .par_iter()
-        .flat_map_iter(|&texel| color::stored_from_linear(texel))
+        .flat_map_iter(|&texel| texel::stored_from_linear(texel))
         .collect()
 }
 
@@ -150,7 +150,7 @@ mod tests {
             for (k, level) in (0..).zip(&chain.mips) {
                 let [w, h] = Image::level_size(size, k);
                 assert_eq!(level.len(), 4 * w as usize * h as usize);
-                let expected = color::stored_from_linear(texel);
+                let expected = texel::stored_from_linear(texel);
                 assert!(
                     level.chunks_exact(4).all(|t| t == expected),
                     "{size:?} level {k}"
@@ -171,7 +171,7 @@ mod tests {
     #[test]
     fn an_edge_to_transparent_keeps_its_colour() {
         // Half-transparent red beside opaque green beside nothing: no darker hue may appear.
-        let red = color::decode(0.9);
+        let red = crate::drawing::color::decode(0.9);
         let level0 = image([4, 4], |x, _| match x {
             0 | 1 => [0.5 * red, 0.0, 0.0, 0.5],
             2 => [0.0, 1.0, 0.0, 1.0],

@@ -5,7 +5,8 @@ use vtex_format::{Gradient, VtexFile};
 
 use crate::{
     config::{BakeConfig, Resources},
-    drawing::{Drawing, FillRule, Item, Paint, Shape, ShapeSource, to_f32},
+    drawing::{Drawing, FillRule, Item, Paint, Shape, ShapeSource},
+    number::to_f32,
     oracle::gradient,
 };
 
@@ -47,5 +48,5 @@ pub(crate) fn stored_at(file: &VtexFile, index: u32, uv: [f64; 2]) -> [f32; 4] {
 
 /// An SVG as the bake sees it, without fonts.
 pub(crate) fn drawing_of(svg: &[u8], config: &BakeConfig) -> Drawing {
-    crate::draw(svg, config, &Resources::default(), &|_| ()).unwrap()
+    crate::pipeline::draw(svg, config, &Resources::default(), &|_| ()).unwrap()
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use vtex_testing::{Corpus, slow_only};
 
-use crate::{BakeConfig, Mode, Resources, bake, draw};
+use crate::{BakeConfig, Mode, Resources, bake, pipeline::draw};
 
 /// What usvg or resvg themselves do not finish within a minute; only a process limit helps.
 const ENDLESS: [&str; 4] = [

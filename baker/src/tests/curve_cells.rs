@@ -9,8 +9,8 @@ use crate::{
     config::{BakeConfig, Mode},
     coverage::{
         grid::Lattice,
-        judge::{Coverage, Verdict},
         placed::{Placed, PlacedKind, place},
+        verdict::{Coverage, Verdict},
     },
     drawing::Drawing,
     geometry::{flatten_segment, line_box_distance},
@@ -60,7 +60,7 @@ fn compare(drawing: &Drawing, file: &VtexFile, config: &BakeConfig, points: u32)
     let mut random = Random(9);
     let (mut compared, mut wrong) = (0, 0);
     for _ in 0..points {
-        let uv = [random.within(0.0, 1.0), random.within(0.0, 1.0)].map(crate::drawing::to_f32);
+        let uv = [random.within(0.0, 1.0), random.within(0.0, 1.0)].map(crate::number::to_f32);
         let canvas = lattice.canvas;
         let p = Point::new(
             canvas.x0 + f64::from(uv[0]) * canvas.width(),

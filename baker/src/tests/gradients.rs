@@ -8,7 +8,8 @@ use vtex_shaders::{PackOptions, cpu, pack};
 
 use crate::{
     BakeConfig, Mode, Resources, bake,
-    drawing::{Drawing, Item, Paint, to_f32},
+    drawing::{Drawing, Item, Paint},
+    number::to_f32,
     testing::{drawing_of, shape, solid},
 };
 

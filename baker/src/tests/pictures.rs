@@ -4,10 +4,10 @@ use tiny_skia::{Pixmap, Transform};
 use vtex_format::WarningCode;
 
 use crate::{
-    BakeConfig, BakeError, Mode, Resources, bake, draw,
-    drawing::{Drawing, Item, color},
-    pipeline,
-    raster::{canvas, mips::LinearImage},
+    BakeConfig, BakeError, Mode, Resources, bake,
+    drawing::{Drawing, Item},
+    pipeline::{self, draw},
+    raster::{canvas, mips::LinearImage, texel},
     svg,
     testing::solid,
     warning::Warnings,
@@ -53,7 +53,7 @@ fn reduced(pixmap: &Pixmap) -> Pixmap {
         size,
         texels: texels
             .iter()
-            .map(|&texel| color::linear_from_skia(texel))
+            .map(|&texel| texel::linear_from_skia(texel))
             .collect(),
     };
     pixmap_of(&fine.reduced(size.map(|side| side / SAMPLES)))
@@ -63,7 +63,7 @@ fn pixmap_of(image: &LinearImage) -> Pixmap {
     let mut pixmap = Pixmap::new(image.size[0], image.size[1]).unwrap();
     let out = pixmap.data_mut().as_chunks_mut::<4>().0;
     for (out, &texel) in out.iter_mut().zip(&image.texels) {
-        *out = color::skia_from_linear(texel);
+        *out = texel::skia_from_linear(texel);
     }
     pixmap
 }

@@ -2,13 +2,16 @@
 
 use std::cell::OnceCell;
 
-use crate::cell::LAST_BIT;
-use crate::issue::{self, Issues};
-use crate::spec::list_entries;
-use crate::{
-    CURVE_HEADER_WORDS, CellWord, CurveHeader, Entry, EntryKind, Image, ListFaultKind,
-    MAX_ENTRIES_PER_CELL, MAX_ITEMS, MAX_LIST_ITEMS, Tag, VtexFile, list_frames,
+use crate::cells::cell::{
+    CellWord, Entry, EntryKind, LAST_BIT, MAX_ENTRIES_PER_CELL, MAX_ITEMS, MAX_LIST_ITEMS,
 };
+use crate::cells::lists::{list_entries, list_lengths};
+use crate::cells::scope::{ListFaultKind, list_frames};
+use crate::container::issue::{self, Issues};
+use crate::container::tag::Tag;
+use crate::file::texture::VtexFile;
+use crate::records::curve::{CURVE_HEADER_WORDS, CurveHeader};
+use crate::records::image::Image;
 
 /// What entries may name.
 pub(super) struct Tables {
@@ -257,46 +260,4 @@ fn entry_items(file: &VtexFile, words: [u32; 2]) -> u64 {
     let beyond = base.saturating_sub(7).max(-8 - base).max(0).unsigned_abs();
     let segments = u64::from(header.line_count) + u64::from(header.quad_count);
     (segments + changes.sum::<u64>() + u64::from(beyond)).max(1)
-}
-
-/// For each entry how many there are from it to the next last one; `None` when that is more than
-/// [`MAX_ENTRIES_PER_CELL`] or never comes. One backward pass, however lists overlap.
-pub(crate) fn list_lengths(entries: &[u32]) -> Vec<Option<u32>> {
-    let (pairs, _) = entries.as_chunks::<2>();
-    let mut length = None;
-    let backward = pairs.iter().rev().map(|[head, _]| {
-        length = if head & LAST_BIT != 0 {
-            Some(1)
-        } else {
-            length
-                .map(|behind| behind + 1)
-                .filter(|&all| all <= MAX_ENTRIES_PER_CELL)
-        };
-        length
-    });
-    let mut lengths: Vec<_> = backward.collect();
-    lengths.reverse();
-    lengths
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lengths_count_to_the_next_last_entry() {
-        let entries = [0, 0, LAST_BIT, 0, 0, 0, 0, 0, LAST_BIT, 0, 0, 0];
-        let expected = [Some(2), Some(1), Some(3), Some(2), Some(1), None];
-        assert_eq!(list_lengths(&entries), expected);
-    }
-
-    #[test]
-    fn a_list_one_too_long_does_not_end() {
-        let most = MAX_ENTRIES_PER_CELL as usize;
-        let mut entries = vec![0; 2 * (most + 1)];
-        entries[2 * most] = LAST_BIT;
-        let lengths = list_lengths(&entries);
-        assert_eq!(lengths[0], None);
-        assert_eq!(lengths[1], Some(MAX_ENTRIES_PER_CELL));
-    }
 }

@@ -1,9 +1,11 @@
 //! Tiles and raster images.
 
-use crate::image::{ImageRecord, MAX_IMAGE_SIDE};
-use crate::issue::{self, Issues};
-use crate::layout::tile_texels;
-use crate::{Features, Image, Tag, VtexFile};
+use crate::container::issue::{self, Issues};
+use crate::container::layout::tile_texels;
+use crate::container::tag::Tag;
+use crate::file::spec::Features;
+use crate::file::texture::VtexFile;
+use crate::records::image::{Image, ImageRecord, MAX_IMAGE_SIDE};
 
 /// The tiles are as many bytes as the layers say, and every texel's alpha is 255.
 pub(super) fn tiles(file: &VtexFile, issues: &mut Issues) {

@@ -1,9 +1,10 @@
 //! Settings: finite, in range, and a grid that covers the canvas.
 
-use crate::issue::{self, IssueKind, Issues};
-use crate::layout::meta as at;
-use crate::meta::{MAX_GRID_SIDE, MAX_TEXELS_PER_CELL};
-use crate::{Grid, Meta, Tag, VtexFile};
+use crate::container::issue::{self, IssueKind, Issues};
+use crate::container::layout::meta as at;
+use crate::container::tag::Tag;
+use crate::file::texture::VtexFile;
+use crate::records::meta::{Grid, MAX_GRID_SIDE, MAX_TEXELS_PER_CELL, Meta};
 
 /// How far a cell's sides may differ relatively: f32 rounding of canvas and scale.
 const ASPECT_TOLERANCE: f64 = 1e-4;

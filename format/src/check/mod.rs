@@ -2,19 +2,27 @@
 //! subject.
 
 mod cells;
-mod images;
+pub(crate) mod images;
 mod meta;
 mod paints;
 mod prov;
 mod shapes;
 mod spec;
 
-use crate::VtexFile;
-use crate::issue::Issues;
+use crate::container::issue::{Issue, Issues};
+use crate::file::texture::VtexFile;
 
-pub(crate) use cells::list_lengths;
-pub(crate) use images::image_records;
 pub(crate) use meta::meta;
+
+impl VtexFile {
+    /// Everything wrong with the value, up to 256 issues; what `VtexFile::parse` returns has
+    /// none.
+    pub fn check(&self) -> Vec<Issue> {
+        let mut issues = Issues::default();
+        file(self, &mut issues);
+        issues.into_vec()
+    }
+}
 
 /// Checks a whole value.
 pub(crate) fn file(file: &VtexFile, issues: &mut Issues) {

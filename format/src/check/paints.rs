@@ -1,7 +1,10 @@
 //! Paints and the numbers of gradients.
 
-use crate::issue::{self, IssueKind, Issues};
-use crate::{Gradient, GradientShape, PAINT_SOLID, PaintRecord, Tag, VtexFile};
+use crate::container::issue::{self, IssueKind, Issues};
+use crate::container::tag::Tag;
+use crate::file::texture::VtexFile;
+use crate::records::gradient::{Gradient, GradientShape};
+use crate::records::paint::{PAINT_SOLID, PaintRecord};
 
 /// Every paint is a colour in range or a gradient whose numbers are sound. The numbers of gradients
 /// follow each other and nothing lies behind them, so that no number is walked for two paints.

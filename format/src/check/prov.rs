@@ -1,7 +1,8 @@
 //! The report of the bake.
 
-use crate::issue::{self, Issues};
-use crate::{FieldError, Provenance, Tag};
+use crate::container::issue::{self, Issues};
+use crate::container::tag::Tag;
+use crate::records::prov::{FieldError, Provenance};
 
 /// One report a shape, options sorted, errors and areas in range.
 pub(super) fn provenance(provenance: &Provenance, shape_count: usize, issues: &mut Issues) {

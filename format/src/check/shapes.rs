@@ -1,9 +1,10 @@
 //! Shapes and layers.
 
-use crate::issue::{self, Issues};
-use crate::{
-    COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, FILL_EVEN_ODD, FILL_NON_ZERO, ShapeRecord, Tag,
-    VtexFile,
+use crate::container::issue::{self, Issues};
+use crate::container::tag::Tag;
+use crate::file::texture::VtexFile;
+use crate::records::shape::{
+    COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, FILL_EVEN_ODD, FILL_NON_ZERO, ShapeRecord,
 };
 
 /// Every shape names what exists.

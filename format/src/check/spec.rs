@@ -1,9 +1,10 @@
 //! The shader key against what it was made for.
 
 use super::cells::Bounds;
-use crate::issue::{self, Issues};
-use crate::spec::{Features, SHADER_ABI, SpecKey};
-use crate::{Tag, VtexFile};
+use crate::container::issue::{self, Issues};
+use crate::container::tag::Tag;
+use crate::file::spec::{Features, SHADER_ABI, SpecKey};
+use crate::file::texture::VtexFile;
 
 /// The key is of this ABI, knows every feature the content needs, and repeats META rightly.
 pub(super) fn spec(file: &VtexFile, bounds: Bounds, issues: &mut Issues) {

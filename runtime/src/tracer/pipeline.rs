@@ -4,7 +4,7 @@ use vtex_shaders::{BindingSlot, LinkContext};
 use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferBindingType, ComputePipeline, Device};
 
 use crate::RuntimeError;
-use crate::gpu::{checked, compiled};
+use crate::device::compiled;
 
 use super::upload::SceneBuffers;
 
@@ -12,7 +12,7 @@ const UNIFORM: BufferBindingType = BufferBindingType::Uniform;
 const READ: BufferBindingType = BufferBindingType::Storage { read_only: true };
 const WRITE: BufferBindingType = BufferBindingType::Storage { read_only: false };
 
-/// Bindings of `shaders/wgsl/root/render.wgsl`, group by group, in order.
+/// Bindings of `shaders/wgsl/root/render.wgsl` and `root/intersect.wgsl`, group by group, in order.
 const SCENE_GROUP: &[BufferBindingType] = &[UNIFORM, UNIFORM, READ, READ, READ, READ];
 const FILM_GROUP: &[BufferBindingType] = &[WRITE, WRITE];
 const QUERY_GROUP: &[BufferBindingType] = &[READ, WRITE];
@@ -23,15 +23,20 @@ const TEXTURE_SLOT: BindingSlot = BindingSlot {
     binding: 0,
 };
 
-/// The compiled shader and what can be bound to it.
+/// The compiled path tracer and the layouts of its groups.
 #[derive(Debug)]
 pub(super) struct Pipelines {
     pub(super) render: ComputePipeline,
-    pub(super) intersect: ComputePipeline,
     pub(super) scene_layout: BindGroupLayout,
     pub(super) film_layout: BindGroupLayout,
-    pub(super) query_layout: BindGroupLayout,
     pub(super) texture_layout: BindGroupLayout,
+}
+
+/// The compiled ray query of `shaders/wgsl/root/intersect.wgsl`.
+#[derive(Debug)]
+pub(super) struct QueryPipeline {
+    pub(super) intersect: ComputePipeline,
+    pub(super) query_layout: BindGroupLayout,
 }
 
 /// What `render` reads and writes.
@@ -43,36 +48,47 @@ pub(super) struct Bindings {
 }
 
 impl Pipelines {
-    pub(super) fn new(device: &Device, texture_features: u32) -> Result<Self, RuntimeError> {
+    pub(super) async fn new(device: &Device, texture_features: u32) -> Result<Self, RuntimeError> {
         let context = vtex_shaders::scene_context(texture_features, TEXTURE_SLOT);
-        let render_wgsl = linked("root/render", &context)?;
-        let intersect_wgsl = linked("root/intersect", &context)?;
+        let wgsl = linked("root/render", &context)?;
         compiled(device, "path tracer", || {
             let scene_layout = layout(device, "vtex scene", SCENE_GROUP);
             let film_layout = layout(device, "vtex film", FILM_GROUP);
-            let query_layout = layout(device, "vtex queries", QUERY_GROUP);
             let texture_layout = layout(device, "vtex textures", TEXTURE_GROUP);
-            let render = {
-                let groups = [&scene_layout, &film_layout, &texture_layout];
-                pipeline(device, &render_wgsl, "render", &groups)
-            };
-            let intersect = {
-                let groups = [&scene_layout, &query_layout];
-                pipeline(device, &intersect_wgsl, "intersect", &groups)
-            };
-            Self {
-                render,
-                intersect,
+            let groups = [&scene_layout, &film_layout, &texture_layout];
+            Ok(Self {
+                render: pipeline(device, &wgsl, "render", &groups),
                 scene_layout,
                 film_layout,
-                query_layout,
                 texture_layout,
-            }
+            })
         })
+        .await
+    }
+}
+
+impl QueryPipeline {
+    /// Its group 0 is the path tracer's.
+    pub(super) async fn new(
+        device: &Device,
+        scene_layout: &BindGroupLayout,
+    ) -> Result<Self, RuntimeError> {
+        // It reads triangles alone, so no evaluator of textures is linked.
+        let wgsl = linked("root/intersect", &LinkContext::default())?;
+        compiled(device, "ray query", || {
+            let query_layout = layout(device, "vtex queries", QUERY_GROUP);
+            let groups = [scene_layout, &query_layout];
+            Ok(Self {
+                intersect: pipeline(device, &wgsl, "intersect", &groups),
+                query_layout,
+            })
+        })
+        .await
     }
 }
 
 impl Bindings {
+    /// To be called in [`checked`](crate::device::checked).
     pub(super) fn new(
         device: &Device,
         pipelines: &Pipelines,
@@ -80,12 +96,12 @@ impl Bindings {
         pass: &Buffer,
         film_sum: &Buffer,
         film_rays: &Buffer,
-    ) -> Result<Self, RuntimeError> {
-        checked(device, "path tracer bindings", || Self {
+    ) -> Self {
+        Self {
             scene: group(device, &pipelines.scene_layout, &scene.bindings(pass)),
             film: group(device, &pipelines.film_layout, &[film_sum, film_rays]),
             textures: group(device, &pipelines.texture_layout, &[scene.textures()]),
-        })
+        }
     }
 }
 

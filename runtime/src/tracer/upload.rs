@@ -1,19 +1,20 @@
 //! A scene as buffers on the device.
 
-use glam::{Vec3, Vec3A, Vec4};
+use glam::{Affine3A, Vec3, Vec3A, Vec4};
 use obvhs::triangle::Triangle;
 use wgpu::{Buffer, BufferUsages, Device, Queue};
 
-use super::TraceOptions;
 use super::records::{
     AttributeRecord, FrameRecord, LightRecord, MaterialRecord, NONE, SURFACE_DIFFUSE,
     SURFACE_GLOSSY, TriangleRecord,
 };
-use crate::gpu::filled_buffer;
-use crate::load::PackedTextures;
-use crate::mesh::MAX_TRIANGLES;
-use crate::scene::{Instance, MAX_LIGHTS, Material, RectLight, Scene, Surface};
-use crate::{Camera, RuntimeError, bvh};
+use super::textures::PackedTextures;
+use super::{TraceOptions, bvh};
+use crate::RuntimeError;
+use crate::device::{checked, filled_buffer};
+use crate::scene::{
+    Camera, Instance, MAX_LIGHTS, MAX_TRIANGLES, Material, RectLight, Scene, Surface,
+};
 
 /// Deepest hierarchy the shader's stack holds; see `BVH_STACK_SIZE` there.
 const MAX_BVH_DEPTH: usize = 32;
@@ -42,7 +43,7 @@ struct World {
 }
 
 impl SceneBuffers {
-    pub(super) fn upload(
+    pub(super) async fn upload(
         device: &Device,
         queue: &Queue,
         scene: &Scene,
@@ -69,26 +70,24 @@ impl SceneBuffers {
         let packed = PackedTextures::new(&scene.textures)?;
         let materials = material_records(scene, &packed.first_words);
         let frame_record = frame_record(scene, size, options, &triangles)?;
-        let storage = |label: &str, bytes: &[u8]| {
-            filled_buffer(device, queue, label, bytes, BufferUsages::STORAGE)
-        };
-        Ok(Self {
-            frame: filled_buffer(
-                device,
-                queue,
-                "vtex frame",
-                bytemuck::bytes_of(&frame_record),
-                BufferUsages::UNIFORM,
-            )?,
-            frame_record,
-            nodes: storage("vtex BVH nodes", bytemuck::cast_slice(&bvh.nodes))?,
-            triangles: storage("vtex triangles", bytemuck::cast_slice(&triangles))?,
-            attributes: storage("vtex attributes", bytemuck::cast_slice(&attributes))?,
-            materials: storage("vtex materials", bytemuck::cast_slice(&materials))?,
-            textures: storage("vtex textures", bytemuck::cast_slice(&packed.words))?,
-            texture_features: packed.features,
-            source_triangles: bvh.primitive_indices,
+        checked(device, "scene", || {
+            let filled =
+                |label, bytes: &[u8], usage| filled_buffer(device, queue, label, bytes, usage);
+            let storage = |label, bytes: &[u8]| filled(label, bytes, BufferUsages::STORAGE);
+            let frame = bytemuck::bytes_of(&frame_record);
+            Ok(Self {
+                frame: filled("vtex frame", frame, BufferUsages::UNIFORM)?,
+                frame_record,
+                nodes: storage("vtex BVH nodes", bytemuck::cast_slice(&bvh.nodes))?,
+                triangles: storage("vtex triangles", bytemuck::cast_slice(&triangles))?,
+                attributes: storage("vtex attributes", bytemuck::cast_slice(&attributes))?,
+                materials: storage("vtex materials", bytemuck::cast_slice(&materials))?,
+                textures: storage("vtex textures", bytemuck::cast_slice(&packed.words))?,
+                texture_features: packed.features,
+                source_triangles: bvh.primitive_indices,
+            })
         })
+        .await
     }
 
     /// In the order of group 0 of `root/render.wgsl`.
@@ -159,7 +158,7 @@ impl World {
 
     fn place(&mut self, scene: &Scene, instance: &Instance) {
         let mesh = &scene.meshes[instance.mesh];
-        let to_world = instance.world_from_object;
+        let to_world = Affine3A::from_cols_array_2d(&instance.world_from_object);
         let normal_to_world = to_world.matrix3.inverse().transpose();
         for indices in &mesh.triangles {
             let corners = indices.map(|i| i as usize);
@@ -173,8 +172,8 @@ impl World {
             let uvs = corners.map(|i| mesh.uvs[i]);
             self.triangles.push(triangle);
             self.attributes.push(attribute_record(
-                [0, 1, 2].map(|k| normals[k].extend(uvs[k].x)),
-                uvs.map(|uv| uv.y),
+                [0, 1, 2].map(|k| normals[k].extend(uvs[k][0])),
+                uvs.map(|[_, v]| v),
                 index_u32(instance.material),
             ));
         }
@@ -183,8 +182,9 @@ impl World {
     /// Lights are met by chance too, so they are geometry: two triangles, counter-clockwise seen
     /// from where they shine.
     fn place_light(&mut self, light: &RectLight, material: u32) {
-        let normal = light.edge_u.cross(light.edge_v).normalize_or_zero();
-        let at = |u: f32, v: f32| Vec3A::from(light.corner + light.edge_u * u + light.edge_v * v);
+        let [corner, edge_u, edge_v] = light_vectors(light);
+        let normal = edge_u.cross(edge_v).normalize_or_zero();
+        let at = |u: f32, v: f32| Vec3A::from(corner + edge_u * u + edge_v * v);
         for corners in [
             [at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0)],
             [at(0.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)],
@@ -296,12 +296,17 @@ fn frame_record(
     Ok(frame)
 }
 
+fn light_vectors(light: &RectLight) -> [Vec3; 3] {
+    [light.corner, light.edge_u, light.edge_v].map(Vec3::from)
+}
+
 fn light_record(light: &RectLight) -> LightRecord {
-    let cross = light.edge_u.cross(light.edge_v);
+    let [corner, edge_u, edge_v] = light_vectors(light);
+    let cross = edge_u.cross(edge_v);
     LightRecord {
-        corner: vector(light.corner),
-        edge_u: vector(light.edge_u),
-        edge_v: vector(light.edge_v),
+        corner: vector(corner),
+        edge_u: vector(edge_u),
+        edge_v: vector(edge_v),
         normal_area: cross.normalize_or_zero().extend(cross.length()).to_array(),
         radiance: color(light.radiance),
     }
@@ -311,7 +316,7 @@ fn set_camera(frame: &mut FrameRecord, camera: &Camera) -> Result<(), RuntimeErr
     let [right, up, forward] = camera.axes()?;
     let [width, height] = [frame.film_width, frame.film_height].map(|side| side as f32);
     let half_height = (0.5 * camera.fov_y_rad).tan();
-    frame.camera_position = vector(camera.position);
+    frame.camera_position = vector(camera.position.into());
     frame.camera_right = vector(right * (half_height * width / height));
     frame.camera_up = vector(up * half_height);
     frame.camera_forward = vector(forward);

@@ -20,7 +20,7 @@ pub fn showroom(files: Vec<VtexFile>) -> Scene {
     room.scene
 }
 
-/// Colour of everything that is not drawn.
+/// Colour under the drawings and of objects without one.
 const PAPER: [f32; 3] = [0.82, 0.81, 0.78];
 
 struct Room {
@@ -43,15 +43,15 @@ impl Room {
                     ground: [0.12, 0.12, 0.11],
                 },
                 lights: vec![RectLight {
-                    corner: Vec3::new(-2.2, 4.0, -0.2),
-                    edge_u: Vec3::new(2.4, 0.0, 0.0),
-                    edge_v: Vec3::new(0.0, -0.8, 1.6),
+                    corner: [-2.2, 4.0, -0.2],
+                    edge_u: [2.4, 0.0, 0.0],
+                    edge_v: [0.0, -0.8, 1.6],
                     radiance: [10.5, 10.1, 9.4],
                 }],
                 camera: Camera {
-                    position: Vec3::new(0.25, 1.45, 4.9),
-                    target: Vec3::new(0.0, 0.42, 0.0),
-                    up: Vec3::Y,
+                    position: [0.25, 1.45, 4.9],
+                    target: [0.0, 0.42, 0.0],
+                    up: [0.0, 1.0, 0.0],
                     fov_y_rad: 0.55,
                 },
             },
@@ -60,7 +60,7 @@ impl Room {
         }
     }
 
-    /// The floor, and a wall far enough back to leave the objects alone.
+    /// The floor, and a wall far enough behind the objects to cast no shadow on them.
     fn walls(&mut self) {
         let floor = Material {
             base_color: [0.32, 0.31, 0.30],
@@ -107,7 +107,7 @@ impl Room {
             },
             ..Material::default()
         };
-        let size = Vec3::new(width + 0.06, height + 0.06, 0.05);
+        let size = [width + 0.06, height + 0.06, 0.05];
         self.add(Mesh::cuboid(size), frame, place(Vec3::ZERO));
         let face = Self::printed(texture, Surface::Diffuse);
         self.add(Mesh::plane(width, height), face, place(Vec3::Z * 0.026));
@@ -150,8 +150,9 @@ impl Room {
             ..Material::default()
         };
         let center = Vec3::new(1.15, 0.5 * height, 0.1);
-        // u = 0.5 faces the camera; of an even number of copies that is a seam, so half a copy more.
-        let to_camera = self.scene.camera.position - center;
+        // u = 0.5 faces the camera. With an even number of copies a seam lies there, so the mug is
+        // turned by half a copy.
+        let to_camera = Vec3::from(self.scene.camera.position) - center;
         let half_copy = if copies % 2.0 == 0.0 {
             std::f32::consts::PI / copies
         } else {
@@ -182,8 +183,8 @@ impl Room {
         self.add(Mesh::plane(width, depth), panel, place);
     }
 
-    /// The next texture and its proportions. Each object has a copy of its own, since address
-    /// modes are part of a loaded texture.
+    /// The next texture and its proportions. Each object gets a copy of its own, since the address
+    /// mode is set when a texture is loaded.
     fn take(&mut self, address: Option<[AddressMode; 2]>) -> (Option<usize>, f32) {
         if self.files.is_empty() {
             return (None, 1.0);
@@ -201,7 +202,7 @@ impl Room {
         self.scene.instances.push(Instance {
             mesh: self.scene.meshes.len(),
             material: self.scene.materials.len(),
-            world_from_object,
+            world_from_object: world_from_object.to_cols_array_2d(),
         });
         self.scene.meshes.push(mesh);
         self.scene.materials.push(material);

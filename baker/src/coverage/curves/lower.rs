@@ -33,11 +33,13 @@ pub(crate) struct Segment {
 
 impl Segment {
     /// Smallest x.
+    #[cfg(any(test, feature = "oracle"))]
     pub(crate) fn x_min(&self) -> f64 {
         self.start.x.min(self.end.x)
     }
 
     /// Largest x.
+    #[cfg(any(test, feature = "oracle"))]
     pub(crate) fn x_max(&self) -> f64 {
         self.start.x.max(self.end.x)
     }

@@ -12,6 +12,7 @@
 
 pub(crate) mod lower;
 pub(crate) mod record;
+pub(crate) mod source;
 pub(crate) mod split;
 #[cfg(test)]
 mod split_tests;

@@ -65,7 +65,7 @@ fn compare(file: &VtexFile, outline: &BezPath, rule: FillRule, area: Rect, clear
         {
             continue;
         }
-        let uv = [p.x / 100.0, p.y / 100.0].map(crate::drawing::to_f32);
+        let uv = [p.x / 100.0, p.y / 100.0].map(crate::number::to_f32);
         let filled = sampler.sample(uv, [0.0; 4])[3] > 0.5;
         compared += 1;
         wrong += u32::from(filled != truth.contains(p));
@@ -175,7 +175,7 @@ fn a_scribble_of_fifty_thousand_segments_is_painted() {
     let words = pack(&file, &PackOptions::default());
     let sampler = cpu::Sampler::new(&words);
     let at = |p: Point| {
-        let uv = [p.x / 100.0, p.y / 100.0].map(crate::drawing::to_f32);
+        let uv = [p.x / 100.0, p.y / 100.0].map(crate::number::to_f32);
         sampler.sample(uv, [1e-3, 0.0, 0.0, 1e-3])[3]
     };
     assert!(at(CELL.center()) > 0.9, "{}", at(CELL.center()));
@@ -192,7 +192,7 @@ fn too_many_entries_are_refused() {
         let color = [
             0.0,
             0.0,
-            crate::drawing::to_f32(f64::from(k % 250) / 250.0),
+            crate::number::to_f32(f64::from(k % 250) / 250.0),
             0.5,
         ];
         let outline = Rect::from_center_size(CELL.center(), (side, side)).to_path(0.1);

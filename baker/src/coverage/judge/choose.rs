@@ -1,23 +1,24 @@
 //! The size of the lattice, and with it the kind of each shape.
 
 use rayon::prelude::*;
-use vtex_format::Finding;
+use vtex_format::{FieldError, Finding};
 
 use super::{
-    Candidate, Coverage, Judgement, Verdict,
+    candidate::Candidate,
     cost::{Cost, Extent, ground},
-    error_record,
     measure::{Measured, measure},
 };
 use crate::{
     config::BakeConfig,
     coverage::{
         grid::Lattice,
-        placed::{Placed, place_prepared},
+        placed::place_prepared,
         scales::Scales,
+        verdict::{Coverage, Judgement, Verdict},
     },
     drawing::{Drawing, Item},
     geometry::prepare::{Note, Prepared, clean, prepare},
+    number::to_f32,
 };
 
 /// Lines of this mean width in steps or less are hairlines: no field holds both their edges.
@@ -27,6 +28,9 @@ const HAIRLINE_STEPS: f64 = 1.0;
 /// Fields must cost less than this share of what curves alone would: estimates are about as good,
 /// and a file of two kinds has the code of both.
 const WORTHWHILE: f64 = 0.95;
+
+/// Bits of a float that reports keep: 7 of the mantissa.
+const SHORT_FLOAT: u32 = 0xFFFF_0000;
 
 /// A shape before its kind is known.
 struct Subject {
@@ -61,23 +65,15 @@ struct Choice {
 pub(super) fn choose(
     drawing: &Drawing,
     config: &BakeConfig,
-    mip0_size: u32,
     candidates: &[Candidate],
 ) -> Judgement {
-    let subjects = subjects(drawing, config.max_zoom);
-    let whole = cost_as_curves(drawing, config, mip0_size, &subjects);
+    let choosing = Choosing::new(drawing, config);
     let mut promises: Vec<(f64, &Candidate)> = candidates
         .iter()
-        .map(|candidate| {
-            let fields = vec![true; subjects.len()];
-            (
-                total(&subjects, candidate, mip0_size, &fields, whole),
-                candidate,
-            )
-        })
+        .map(|candidate| (choosing.least_cost(candidate), candidate))
         .collect();
     promises.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let curves = WORTHWHILE * whole.relative_to(whole);
+    let curves = WORTHWHILE * choosing.whole.relative_to(choosing.whole);
     let mut best: Option<Choice> = None;
     for (promise, candidate) in promises {
         if best
@@ -86,7 +82,7 @@ pub(super) fn choose(
         {
             break;
         }
-        let choice = try_candidate(&subjects, candidate, mip0_size, whole);
+        let choice = choosing.try_candidate(candidate);
         if best.as_ref().is_none_or(|best| choice.cost < best.cost) {
             best = Some(choice);
         }
@@ -100,29 +96,33 @@ pub(super) fn choose(
     if best.cost >= curves {
         best.fields.fill(false);
     }
-    let verdicts = best.trials.iter().zip(&best.fields);
-    Judgement {
-        verdicts: verdicts
-            .map(|(&trial, &field)| verdict(trial, field))
-            .collect(),
-        msdf_size: if best.fields.contains(&true) {
-            best.size
-        } else {
-            config.msdf_size
-        },
+    best.into_judgement(config.msdf_size)
+}
+
+impl Choice {
+    /// `msdf_size` is the size that stands where no shape becomes a field.
+    fn into_judgement(self, msdf_size: u32) -> Judgement {
+        let has_fields = self.fields.contains(&true);
+        let verdicts = self.trials.into_iter().zip(self.fields);
+        Judgement {
+            verdicts: verdicts
+                .map(|(trial, field)| verdict(trial, field))
+                .collect(),
+            msdf_size: if has_fields { self.size } else { msdf_size },
+        }
     }
 }
 
-/// One an item; only shapes have one.
-fn subjects(drawing: &Drawing, max_zoom: f32) -> Vec<Option<Subject>> {
-    let longer = drawing.canvas_size[0].max(drawing.canvas_size[1]);
+/// One subject an item; only shapes have one.
+fn subjects(drawing: &Drawing, longer_side_px: f64) -> Vec<Option<Subject>> {
+    let longer = drawing.longer_side();
     let subject = |item: &Item| match item {
         Item::Shape(shape) => {
             let prepared = prepare(shape, longer);
             let drawn = clean(&shape.outline, longer);
             Some(Subject {
-                extent: Extent::new(&prepared.outline, drawing.canvas_size, max_zoom),
-                drawn: Extent::new(&drawn, drawing.canvas_size, max_zoom),
+                extent: Extent::new(&prepared.outline, drawing.canvas_size, longer_side_px),
+                drawn: Extent::new(&drawn, drawing.canvas_size, longer_side_px),
                 prepared,
             })
         }
@@ -131,70 +131,77 @@ fn subjects(drawing: &Drawing, max_zoom: f32) -> Vec<Option<Subject>> {
     drawing.items.par_iter().map(subject).collect()
 }
 
-/// The drawing with nothing but curves, on the grid it would then have.
-fn cost_as_curves(
-    drawing: &Drawing,
-    config: &BakeConfig,
+/// What all sizes are compared by.
+struct Choosing {
+    subjects: Vec<Option<Subject>>,
     mip0_size: u32,
-    subjects: &[Option<Subject>],
-) -> Cost {
-    let lattice = Lattice::for_curves(drawing.canvas_size, config.msdf_size, mip0_size);
-    let margin = Scales::new(config, &lattice, mip0_size).distances.margin;
-    subjects
-        .iter()
-        .flatten()
-        .map(|subject| subject.drawn.as_curves(&lattice, margin))
-        .fold(ground(&lattice, mip0_size), Cost::plus)
+    /// Cost of the drawing with nothing but curves, on the grid it would then have.
+    whole: Cost,
 }
 
-/// The drawing on the candidate's lattice, where shapes with a `true` may be distance fields, as a
-/// multiple of `whole`.
-fn total(
-    subjects: &[Option<Subject>],
-    candidate: &Candidate,
-    mip0_size: u32,
-    may_be_fields: &[bool],
-    whole: Cost,
-) -> f64 {
-    let cost_of = |(subject, &may_be_field): (&Option<Subject>, &bool)| {
-        let subject = subject.as_ref()?;
-        let [field, curves] = subject.costs(candidate);
-        let is_field = may_be_field && subject.pays_as_field(candidate, whole);
-        Some(if is_field { field } else { curves })
-    };
-    subjects
-        .iter()
-        .zip(may_be_fields)
-        .filter_map(cost_of)
-        .fold(ground(&candidate.lattice, mip0_size), Cost::plus)
-        .relative_to(whole)
-}
-
-fn try_candidate(
-    subjects: &[Option<Subject>],
-    candidate: &Candidate,
-    mip0_size: u32,
-    whole: Cost,
-) -> Choice {
-    let trials: Vec<Option<Trial>> = subjects
-        .par_iter()
-        .map(|subject| Some(subject.as_ref()?.judge_at(candidate)))
-        .collect();
-    let sound = |trial: &Option<Trial>| trial.is_some_and(|t| t.finding == Finding::None);
-    let within: Vec<bool> = trials.iter().map(sound).collect();
-    let pays = |subject: &Option<Subject>| {
-        let subject = subject.as_ref();
-        subject.is_some_and(|subject| subject.pays_as_field(candidate, whole))
-    };
-    Choice {
-        size: candidate.size,
-        cost: total(subjects, candidate, mip0_size, &within, whole),
-        fields: subjects
+impl Choosing {
+    fn new(drawing: &Drawing, config: &BakeConfig) -> Self {
+        let subjects = subjects(drawing, config.longer_side_px());
+        let mip0_size = config.mip0_size;
+        let lattice = Lattice::for_curves(drawing.canvas_size, config.msdf_size, mip0_size);
+        let margin = Scales::new(config, &lattice).distances.margin;
+        let whole = subjects
             .iter()
-            .zip(&within)
-            .map(|(subject, &within)| within && pays(subject))
-            .collect(),
-        trials,
+            .flatten()
+            .map(|subject| subject.drawn.as_curves(&lattice, margin))
+            .fold(ground(&lattice, mip0_size), Cost::plus);
+        Self {
+            subjects,
+            mip0_size,
+            whole,
+        }
+    }
+
+    /// The cost on the candidate's lattice if every shape that pays as a field could be one.
+    fn least_cost(&self, candidate: &Candidate) -> f64 {
+        self.cost(candidate, &vec![true; self.subjects.len()])
+    }
+
+    /// The drawing's cost on the candidate's lattice, where shapes with a `true` may be distance
+    /// fields, as a multiple of `whole`.
+    fn cost(&self, candidate: &Candidate, may_be_fields: &[bool]) -> f64 {
+        let cost_of = |(subject, &may_be_field): (&Option<Subject>, &bool)| {
+            let subject = subject.as_ref()?;
+            let [field, curves] = subject.costs(candidate);
+            let is_field = may_be_field && subject.pays_as_field(candidate, self.whole);
+            Some(if is_field { field } else { curves })
+        };
+        self.subjects
+            .iter()
+            .zip(may_be_fields)
+            .filter_map(cost_of)
+            .fold(ground(&candidate.lattice, self.mip0_size), Cost::plus)
+            .relative_to(self.whole)
+    }
+
+    fn try_candidate(&self, candidate: &Candidate) -> Choice {
+        let trials: Vec<Option<Trial>> = self
+            .subjects
+            .par_iter()
+            .map(|subject| Some(subject.as_ref()?.judge_at(candidate)))
+            .collect();
+        let sound = |trial: &Option<Trial>| trial.is_some_and(|t| t.finding == Finding::None);
+        let within: Vec<bool> = trials.iter().map(sound).collect();
+        let pays = |subject: &Option<Subject>| {
+            let subject = subject.as_ref();
+            subject.is_some_and(|subject| subject.pays_as_field(candidate, self.whole))
+        };
+        Choice {
+            size: candidate.size,
+            cost: self.cost(candidate, &within),
+            fields: self
+                .subjects
+                .iter()
+                .zip(&within)
+                .map(|(subject, &within)| within && pays(subject))
+                .collect(),
+            trials,
+        }
     }
 }
 
@@ -218,7 +225,7 @@ impl Subject {
         let placed = place_prepared(&self.prepared, &candidate.lattice);
         let trial = |finding, measured| Trial {
             finding,
-            size_texels: size_texels(&placed),
+            size_texels: placed.size_texels(),
             measured,
         };
         let units_per_step = candidate.lattice.lattice_from_canvas.as_coeffs()[0].recip();
@@ -236,13 +243,6 @@ impl Subject {
         };
         trial(finding, Some(measured))
     }
-}
-
-/// Longer side of a shape in texels.
-pub(crate) fn size_texels(placed: &Placed) -> u32 {
-    let bounds = placed.bounds();
-    let size = bounds.width().max(bounds.height()).ceil();
-    u32::try_from(crate::geometry::floor_index(size)).unwrap_or(u32::MAX)
 }
 
 fn verdict(trial: Option<Trial>, field: bool) -> Verdict {
@@ -263,5 +263,14 @@ fn verdict(trial: Option<Trial>, field: bool) -> Verdict {
         error: trial
             .measured
             .map(|measured| error_record(measured.p99_px, measured.wrong)),
+    }
+}
+
+/// Two to three digits are enough for a report, and pack well.
+fn error_record(p99_px: f64, wrong_share: f64) -> FieldError {
+    let short = |x: f64| f32::from_bits(to_f32(x).to_bits() & SHORT_FLOAT);
+    FieldError {
+        wrong_share: short(wrong_share),
+        p99_px: short(p99_px),
     }
 }

@@ -2,10 +2,11 @@
 
 use kurbo::{Affine, BezPath, Rect, Shape as _};
 
-use super::{Candidate, PIXELS_AT_ZOOM_1};
+use super::candidate::Candidate;
 use crate::{
     coverage::{curves::lower::LoweredOutline, grid::Lattice},
     geometry::{clip_line, flatten},
+    number::count,
 };
 
 /// Sides of unit boxes that a line of length 1 crosses, averaged over directions.
@@ -111,8 +112,8 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// Of an outline on a canvas, to be seen at `max_zoom`.
-    pub(super) fn new(outline: &BezPath, canvas_size: [f64; 2], max_zoom: f32) -> Self {
+    /// Of an outline on a canvas whose longer side is `longer_side_px` pixels at the largest zoom.
+    pub(super) fn new(outline: &BezPath, canvas_size: [f64; 2], longer_side_px: f64) -> Self {
         let canvas = Rect::new(0.0, 0.0, canvas_size[0], canvas_size[1]);
         let tolerance = 1e-3 * canvas.width().max(canvas.height());
         let (mut whole, mut length) = (0.0, 0.0);
@@ -127,12 +128,10 @@ impl Extent {
         if length <= 0.0 {
             return Self::default();
         }
-        let px = PIXELS_AT_ZOOM_1 * f64::from(max_zoom) / canvas.width().max(canvas.height());
+        let px = longer_side_px / canvas.width().max(canvas.height());
         let lowered =
             LoweredOutline::new(&(Affine::scale(px / UNIT_PX) * outline), TOLERANCE_UNITS);
         let segments = lowered.map_or_else(|_| outline.segments().count(), |l| l.segments.len());
-        #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
-        let count = |n: usize| n as f64;
         Self {
             length,
             width: 2.0 * outline.area().abs() / whole,

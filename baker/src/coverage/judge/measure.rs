@@ -4,16 +4,19 @@ use kurbo::{BezPath, Line, ParamCurve, ParamCurveDeriv, PathSeg, Point, Vec2};
 use rayon::prelude::*;
 use vtex_format::Finding;
 
-use super::{Candidate, WRONG_SHARE_BOUND};
+use super::candidate::Candidate;
 use crate::{
     coverage::{
-        classify::{ShapeCells, classify},
-        msdf::{TileShape, TileSpec, render_tile},
+        classify::{ShapeCells, classify, tile_spec},
+        msdf::render_tile,
         placed::Placed,
     },
-    geometry::{flatten, floor_index, line_line_distance},
+    geometry::{flatten, line_line_distance},
+    number::floor_index,
 };
 
+/// Share of probes around the edge that a distance field may put on the wrong side.
+pub(super) const WRONG_SHARE_BOUND: f64 = 1e-3;
 /// Distance of probes along the outline in steps; texels are a step apart. More where there would
 /// be too many.
 const PROBE_STEPS: f64 = 0.25;
@@ -89,20 +92,9 @@ impl<'a> Field<'a> {
             lattice, scales, ..
         } = candidate;
         let cells = classify(placed, lattice, scales.distances);
-        let columns = lattice.grid.size_cells[0];
-        let steps = lattice.grid.texels_per_cell;
         let tile = |&cell: &u32| {
-            render_tile(&TileSpec {
-                origin: [cell % columns * steps, cell / columns * steps],
-                steps,
-                range: scales.range,
-                reach: scales.distances.reach,
-                shapes: vec![TileShape {
-                    edges: cells.edges_near(cell).collect(),
-                    placed,
-                    rows: &cells.rows,
-                }],
-            })
+            let shapes = vec![cells.tile_shape(cell, &placed.region)];
+            render_tile(&tile_spec(cell, lattice, scales, shapes))
         };
         let tiles = cells.listed.par_iter().map(tile).collect();
         Self {

@@ -8,12 +8,14 @@ use vtex_shaders::{PackOptions, cpu, pack};
 use vtex_testing::Corpus;
 
 use super::{
-    Candidate, Coverage, PIXELS_AT_ZOOM_1, QUANTA, ROUNDING_QUANTA, WRONG_SHARE_BOUND, judge,
-    measure::measure, sizes,
+    candidate::{Candidate, QUANTA, ROUNDING_QUANTA},
+    judge,
+    measure::{WRONG_SHARE_BOUND, measure},
+    sizes,
 };
 use crate::{
     config::{BakeConfig, Mode},
-    coverage::placed::place_prepared,
+    coverage::{placed::place_prepared, verdict::Coverage},
     drawing::{Drawing, FillRule, Item, Paint, Shape},
     geometry::{
         Region,
@@ -80,10 +82,10 @@ fn dense_check(canvas_size: [f64; 2], shape: &Shape, config: &BakeConfig) -> Den
     let outline = clean(&shape.outline, longer);
     let truth = Region::new(&outline, shape.fill_rule);
     let filled = |p: Point| {
-        let uv = [p.x / canvas_size[0], p.y / canvas_size[1]].map(crate::drawing::to_f32);
+        let uv = [p.x / canvas_size[0], p.y / canvas_size[1]].map(crate::number::to_f32);
         sampler.sample(uv, [0.0; 4])[3] > 0.5
     };
-    let units_per_px = longer / (PIXELS_AT_ZOOM_1 * f64::from(config.max_zoom));
+    let units_per_px = longer / (config.longer_side_px());
     let step = longer / f64::from(config.msdf_size);
     let near = 1e-3 * units_per_px;
     // Walks must not leave the canvas.
@@ -178,7 +180,7 @@ fn the_judge_is_right_about_real_shapes() {
                 msdf_size: size,
                 ..config(zoom, error)
             };
-            let candidate = Candidate::new(drawing, &config, config.mip0_size, size);
+            let candidate = Candidate::new(drawing, &config, size);
             for item in drawing.items.iter().step_by(5) {
                 let Item::Shape(shape) = item else { continue };
                 let dense = dense_check(drawing.canvas_size, shape, &config);
@@ -264,7 +266,7 @@ fn gears() -> Drawing {
 #[test]
 fn hairlines_are_curves_unmeasured() {
     let config = config(1.0, 0.1);
-    let verdicts = judge(&mixed(), &config, config.mip0_size).verdicts;
+    let verdicts = judge(&mixed(), &config).verdicts;
     for verdict in &verdicts[2..] {
         let found = (verdict.coverage, verdict.finding, verdict.error);
         assert_eq!(found, (Coverage::Curves, Finding::Hairline, None));
@@ -295,7 +297,7 @@ fn causes_are_named() {
             unreachable!("a shape")
         };
         let config = config(zoom, 0.2);
-        let candidate = Candidate::new(&drawing, &config, 512, 96);
+        let candidate = Candidate::new(&drawing, &config, 96);
         let placed = place_prepared(&prepare(shape, 100.0), &candidate.lattice);
         let measured = measure(&placed, &candidate);
         assert!(!measured.within(0.2), "{measured:?}");
@@ -307,7 +309,7 @@ fn causes_are_named() {
 fn auto_takes_fields_where_they_pay_and_they_keep_the_bound() {
     for (zoom, error) in [(1.0, 0.1), (2.0, 0.25), (4.0, 0.5)] {
         let config = config(zoom, error);
-        let judgement = judge(&gears(), &config, config.mip0_size);
+        let judgement = judge(&gears(), &config);
         let fields = judgement
             .verdicts
             .iter()
@@ -337,7 +339,7 @@ fn auto_takes_fields_where_they_pay_and_they_keep_the_bound() {
     }
     // Wide zoom and few segments: curves, and nothing is measured.
     let default = BakeConfig::default();
-    let judgement = judge(&gears(), &default, default.mip0_size);
+    let judgement = judge(&gears(), &default);
     for verdict in judgement.verdicts {
         assert_eq!(verdict.coverage, Coverage::Curves);
         assert_eq!(
@@ -353,7 +355,7 @@ fn the_size_follows_the_error() {
     let mut before = 0;
     for error in [1.0, 0.5, 0.25] {
         let config = config(2.0, error);
-        let judgement = judge(&gears(), &config, config.mip0_size);
+        let judgement = judge(&gears(), &config);
         assert!(
             judgement
                 .verdicts
@@ -381,7 +383,7 @@ fn modes_force_one_kind() {
             mode,
             ..config(1.0, 0.1)
         };
-        for verdict in judge(&mixed(), &config, 512).verdicts {
+        for verdict in judge(&mixed(), &config).verdicts {
             assert_eq!(
                 (verdict.coverage, verdict.finding),
                 (coverage, Finding::None)
@@ -398,7 +400,7 @@ fn verdicts_are_the_same_at_any_thread_count() {
             .num_threads(threads)
             .build()
             .unwrap();
-        pool.install(|| [mixed(), gears()].map(|drawing| judge(&drawing, &config, 512)))
+        pool.install(|| [mixed(), gears()].map(|drawing| judge(&drawing, &config)))
     });
     assert_eq!(judged[0], judged[1]);
     assert_eq!(judged[0], judged[2]);
@@ -426,7 +428,7 @@ fn rounding_alone_costs_what_the_rule_says() {
             unreachable!("a shape")
         };
         let config = config(64.0, 0.01);
-        let candidate = Candidate::new(&drawing, &config, 512, 256);
+        let candidate = Candidate::new(&drawing, &config, 256);
         let placed = place_prepared(&prepare(shape, 100.0), &candidate.lattice);
         let quantum_px = candidate.scales.range / QUANTA * candidate.px_per_step;
         least = least.min(measure(&placed, &candidate).p99_px / quantum_px);

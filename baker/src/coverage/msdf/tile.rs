@@ -7,8 +7,8 @@ use fdsm::{
 };
 use nalgebra::Point2;
 
-use super::Edge;
-use crate::{coverage::placed::Placed, geometry::Region};
+use super::edges::Edge;
+use crate::geometry::Region;
 
 /// Crossings of a shape with the horizontal lines of the lattice.
 #[derive(Clone, Debug, Default)]
@@ -43,7 +43,7 @@ pub(crate) struct TileShape<'a> {
     /// Edges within [`TileSpec::reach`] of the tile.
     pub(crate) edges: Vec<&'a Edge>,
     /// Its inside test ...
-    pub(crate) placed: &'a Placed,
+    pub(crate) region: &'a Region,
     /// ... and where it crosses the tile's lines.
     pub(crate) rows: &'a Rows,
 }
@@ -94,7 +94,7 @@ fn texel(spec: &TileSpec<'_>, edges: &PreparedColoredShape, column: u32, row: u3
     let inside = spec
         .shapes
         .iter()
-        .any(|shape| shape.rows.contains(&shape.placed.region, column, row));
+        .any(|shape| shape.rows.contains(shape.region, column, row));
     let p = Point2::new(f64::from(column), f64::from(row));
     let far = if inside { spec.range } else { -spec.range };
     let stored = edges.distance3(p).map(|nearest| {

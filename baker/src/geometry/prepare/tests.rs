@@ -352,7 +352,7 @@ fn what_cannot_be_prepared_is_baked_as_drawn() {
         let p = Point::new(random.within(0.0, CANVAS), random.within(0.0, CANVAS));
         let radius = (p - Point::new(50.0, 50.0)).hypot();
         if (radius - 40.0).abs() > 0.3 {
-            let uv = [p.x / CANVAS, p.y / CANVAS].map(crate::drawing::to_f32);
+            let uv = [p.x / CANVAS, p.y / CANVAS].map(crate::number::to_f32);
             let filled = sampler.sample(uv, [0.0; 4])[3] > 0.5;
             assert_eq!(filled, radius < 40.0, "{p}");
         }

@@ -15,8 +15,6 @@ const DOT_LENGTH: f64 = 1e-3;
 const WORK_UNITS: f64 = 1024.0;
 /// Largest distance between an expanded stroke and the true one, in pixels at maximum zoom.
 const TOLERANCE_PX: f64 = 0.1;
-/// Pixels of the canvas' longer side at zoom 1.
-const PIXELS_AT_ZOOM_1: f64 = 512.0;
 
 /// A stroke in the path's own space.
 #[derive(Clone, Debug)]
@@ -49,8 +47,8 @@ pub(crate) struct Expanded {
 pub(crate) struct StrokeQuality {
     /// Longer side of the canvas in user units.
     pub(crate) canvas_longer_side: f64,
-    /// Magnification at which the outline must still be right.
-    pub(crate) max_zoom: f64,
+    /// Pixels along that side at the largest zoom for which the outline must be right.
+    pub(crate) longer_side_px: f64,
 }
 
 /// Expands `path` in its own space and brings the outline to the canvas, so that a skewed or
@@ -69,7 +67,7 @@ pub(crate) fn expand(
     }
     let work_from_path = Affine::scale(scale);
     let style = style.scaled(scale);
-    let tolerance = TOLERANCE_PX * WORK_UNITS / (PIXELS_AT_ZOOM_1 * quality.max_zoom);
+    let tolerance = TOLERANCE_PX * WORK_UNITS / quality.longer_side_px;
     let mut line = with_dots(&(work_from_path * path), &style);
     if !line.is_finite() || line.elements().is_empty() {
         return None;

@@ -6,11 +6,11 @@ use imagesize::ImageType;
 use usvg::{ImageHrefResolver, ImageKind, Options, Tree};
 use vtex_format::WarningCode;
 
-use crate::{
-    config::ImageReader,
-    svg::source::{self, fonts},
-    warning::Warnings,
+use super::{
+    fonts,
+    text::{GZIP_MAGIC, checked_text},
 };
+use crate::{config::ImageReader, warning::Warnings};
 
 /// Pixels that a raster image may claim in its header. A PNG that claims 60000 x 60000 would end
 /// the process inside the decoder's allocation; 64 Mpx are 256 MiB of RGBA.
@@ -104,13 +104,13 @@ fn checked(data: &[u8]) -> Result<(), String> {
 /// A nested SVG gets no files, so that none can contain itself, and what it embeds is as bounded
 /// as what the outer one does.
 fn nested(data: &[u8], nest: Nest<'_>, outer: &Options<'_>) -> Result<ImageKind, String> {
-    if data.starts_with(&source::GZIP_MAGIC) {
+    if data.starts_with(&GZIP_MAGIC) {
         return Err("a compressed SVG inside an SVG is not read".to_owned());
     }
     if data.len() > MAX_NESTED_SVG_BYTES || nest.level >= MAX_NESTED_LEVELS {
         return Err("too large or too deeply nested".to_owned());
     }
-    let text = source::checked_text(data).map_err(|e| e.to_string())?;
+    let text = checked_text(data).map_err(|e| e.to_string())?;
     let options = Options {
         dpi: outer.dpi,
         image_href_resolver: at_level(nest.warnings, None, nest.level + 1),
@@ -176,7 +176,7 @@ mod tests {
                 ..crate::Resources::default()
             };
             let warnings = Warnings::default();
-            source::parse(svg.as_bytes(), &resources, &warnings).unwrap();
+            crate::svg::parse(svg.as_bytes(), &resources, &warnings).unwrap();
             let list = warnings.into_list();
             let wanted = match level {
                 MAX_NESTED_LEVELS => "too deeply nested",

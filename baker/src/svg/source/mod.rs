@@ -3,38 +3,16 @@
 mod entities;
 mod fonts;
 mod images;
+mod limits;
+mod text;
 
-use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use kurbo::Affine;
-
-use crate::{BakeError, Resources, svg::Cost, warning::Warnings};
+use crate::{config::Resources, error::BakeError, warning::Warnings};
+use limits::{check_filters, check_size};
+use text::{GZIP_MAGIC, checked_text, gunzip};
 
 pub use fonts::font_selector;
-
-/// Bytes of SVG text, packed or not. The largest real drawings (maps) are about 30 MiB; a gzip
-/// stream that unpacks to more is refused while it is read.
-const MAX_SVG_BYTES: usize = 64 << 20;
-/// Nodes of the parsed tree, after `use` is expanded. usvg has a bound of its own as well.
-const MAX_NODES: usize = 1 << 20;
-/// Path verbs of the parsed tree.
-const MAX_SEGMENTS: usize = 1 << 22;
-/// Groups inside groups, clip paths, masks, patterns and SVG images all counted. Real files stay
-/// below 100, usvg lets 1024 elements nest. Deeper ones could exhaust the stack of a painter.
-const MAX_DEPTH: usize = 1024;
-/// Side in texels of the canvas for which filters are weighed.
-const WEIGHED_SIDE: f64 = 512.0;
-/// Nanoseconds for the filters of a canvas of that side, those of morphology's windows apart.
-/// Patches get coarser until theirs take a few seconds each; past this they would show little.
-const MAX_FILTER_NS: f64 = 2e10;
-/// As [`MAX_FILTER_NS`], for windows, which shrink twice as fast with the patch.
-const MAX_WINDOW_NS: f64 = 1.28e12;
-/// Longer side of the canvas over the shorter one. Beyond it mip 0 has no texels for a side.
-const MAX_ASPECT: f32 = 4096.0;
-
-/// How gzip streams begin.
-pub(super) const GZIP_MAGIC: [u8; 2] = [0x1f, 0x8b];
 
 /// Parses an SVG or SVGZ at 96 dpi with the given fonts.
 pub(crate) fn parse(
@@ -66,46 +44,6 @@ pub(crate) fn parse(
     Ok(tree)
 }
 
-/// SVG text that is no longer than allowed, with its entities expanded too.
-pub(super) fn checked_text(bytes: &[u8]) -> Result<&str, BakeError> {
-    if bytes.len() > MAX_SVG_BYTES {
-        return Err(too_many_bytes());
-    }
-    let text = std::str::from_utf8(bytes)
-        .map_err(|e| BakeError::Svg(format!("not UTF-8 text (byte {})", e.valid_up_to())))?;
-    if text.trim_start_matches('\u{feff}').trim().is_empty() {
-        return Err(BakeError::Svg("the input is empty".to_owned()));
-    }
-    if entities::expanded_bytes(text) > MAX_SVG_BYTES {
-        return Err(BakeError::Limit(
-            "entities expand to too much text".to_owned(),
-        ));
-    }
-    Ok(text)
-}
-
-fn gunzip(svgz: &[u8]) -> Result<Vec<u8>, BakeError> {
-    let mut bytes = Vec::new();
-    let bound = MAX_SVG_BYTES as u64 + 1;
-    flate2::read::GzDecoder::new(svgz)
-        .take(bound)
-        .read_to_end(&mut bytes)
-        .map_err(|e| match e.kind() {
-            std::io::ErrorKind::OutOfMemory => {
-                BakeError::Limit("there is no memory for the unpacked SVG".to_owned())
-            }
-            _ => BakeError::Svg(format!("broken gzip stream: {e}")),
-        })?;
-    Ok(bytes)
-}
-
-fn too_many_bytes() -> BakeError {
-    BakeError::Limit(format!(
-        "the SVG text is larger than {} MiB",
-        MAX_SVG_BYTES >> 20
-    ))
-}
-
 fn bake_error(error: &usvg::Error) -> BakeError {
     match error {
         usvg::Error::ElementsLimitReached => {
@@ -119,74 +57,6 @@ fn bake_error(error: &usvg::Error) -> BakeError {
         }
         usvg::Error::ParsingFailed(e) => BakeError::Svg(format!("XML: {e}")),
         other => BakeError::Svg(other.to_string()),
-    }
-}
-
-fn check_size(tree: &usvg::Tree) -> Result<(), BakeError> {
-    let (width, height) = (tree.size().width(), tree.size().height());
-    if !(width.is_finite() && height.is_finite() && width > 0.0 && height > 0.0) {
-        return Err(BakeError::Svg(format!("canvas of {width} x {height}")));
-    }
-    if width.max(height) > MAX_ASPECT * width.min(height) {
-        return Err(BakeError::Limit(format!(
-            "canvas of {width} x {height} is longer than {MAX_ASPECT}:1"
-        )));
-    }
-    let mut census = Census::default();
-    census.count(tree.root(), 0);
-    if census.too_deep {
-        return Err(BakeError::Limit(format!(
-            "groups, clip paths, masks and patterns nest deeper than {MAX_DEPTH}"
-        )));
-    }
-    if census.nodes > MAX_NODES {
-        return Err(BakeError::Limit(format!("more than {MAX_NODES} nodes")));
-    }
-    if census.segments > MAX_SEGMENTS {
-        return Err(BakeError::Limit(format!(
-            "more than {MAX_SEGMENTS} path segments"
-        )));
-    }
-    Ok(())
-}
-
-fn check_filters(tree: &usvg::Tree) -> Result<(), BakeError> {
-    let canvas = [tree.size().width(), tree.size().height()].map(f64::from);
-    let scale = WEIGHED_SIDE / canvas[0].max(canvas[1]);
-    let cost = Cost::of_group(tree.root(), Affine::IDENTITY, canvas);
-    let [filters, windows] = cost.filter_work_ns(scale);
-    if filters > MAX_FILTER_NS || windows > MAX_WINDOW_NS {
-        return Err(BakeError::Limit(
-            "the filters ask for too much work".to_owned(),
-        ));
-    }
-    Ok(())
-}
-
-/// Size of a tree, counted up to just past the limits.
-#[derive(Default)]
-struct Census {
-    nodes: usize,
-    segments: usize,
-    too_deep: bool,
-}
-
-impl Census {
-    fn count(&mut self, group: &usvg::Group, depth: usize) {
-        self.too_deep |= depth > MAX_DEPTH;
-        for node in group.children() {
-            if self.too_deep || self.nodes > MAX_NODES || self.segments > MAX_SEGMENTS {
-                return;
-            }
-            self.nodes += 1;
-            match node {
-                usvg::Node::Group(child) => self.count(child, depth + 1),
-                usvg::Node::Path(path) => self.segments += path.data().verbs().len(),
-                usvg::Node::Image(_) | usvg::Node::Text(_) => {}
-            }
-            // Clip paths, masks, patterns, flattened text and nested images.
-            node.subroots(|root| self.count(root, depth + 1));
-        }
     }
 }
 

@@ -3,15 +3,15 @@
 use kurbo::{Affine, BezPath, PathEl, Rect};
 use usvg::{ClipPath, Group, Node};
 
+use super::{style::fill_rule, walker::Walker};
 use crate::{
     drawing::{
         ClipOutline, FillRule,
         tree::{Clip, ClipPart},
     },
     svg::{
-        Step,
         path::{affine, bez_path, close_subpaths},
-        walk::Walker,
+        plan::Step,
     },
 };
 
@@ -59,10 +59,7 @@ impl Walker<'_, '_> {
                     if self.holds_canvas(&outline) {
                         return Union::All;
                     }
-                    let rule = match fill.rule() {
-                        usvg::FillRule::NonZero => FillRule::NonZero,
-                        usvg::FillRule::EvenOdd => FillRule::EvenOdd,
-                    };
+                    let rule = fill_rule(fill.rule());
                     Union::Parts(self.clip_part(outline, rule).into_iter().collect())
                 }
                 Node::Text(text) => self.union(text.flattened(), canvas_from_group),

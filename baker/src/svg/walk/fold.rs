@@ -3,10 +3,8 @@
 use kurbo::{Affine, Rect};
 use usvg::{BlendMode, Group, Node};
 
-use crate::svg::{
-    path::{affine, transformed_bounds},
-    walk::Walker,
-};
+use super::walker::Walker;
+use crate::svg::path::{affine, transformed_bounds};
 
 /// Shapes of a translucent group that are compared with each other for overlap.
 const MAX_FOLDED_SHAPES: usize = 64;

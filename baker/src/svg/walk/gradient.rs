@@ -5,10 +5,7 @@ use std::sync::Arc;
 use kurbo::{Affine, Point};
 use vtex_format::{Gradient, GradientShape, GradientStop, MAX_GRADIENT_STOPS, Spread};
 
-use crate::{
-    drawing::{Paint, to_f32},
-    svg::path::affine,
-};
+use crate::{drawing::Paint, number::to_f32, svg::path::affine};
 
 /// Lengths below this share of the end circle's radius are none.
 const NOTHING: f64 = 1e-6;

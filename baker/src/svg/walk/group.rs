@@ -4,15 +4,16 @@ use kurbo::Shape as _;
 use usvg::{BlendMode, Group, MaskType, Node};
 use vtex_format::{self as format, MaskKind};
 
+use super::{
+    recolor::Recolor,
+    walker::{Place, Walker},
+};
 use crate::{
     drawing::{
         FillRule,
         tree::{self, Clip, Mask, Scope},
     },
-    svg::{
-        path::affine,
-        walk::{Place, Walker, recolor::Recolor},
-    },
+    svg::path::affine,
 };
 
 /// What is done to a group as a whole.
@@ -164,13 +165,6 @@ impl<'a> Walker<'a, '_> {
             children,
         });
         Some(())
-    }
-
-    /// The nodes that `walk` adds, apart from those of the group it happens in.
-    pub(super) fn collected(&mut self, walk: impl FnOnce(&mut Self)) -> Vec<tree::Node> {
-        let outer = std::mem::take(&mut self.nodes);
-        walk(self);
-        std::mem::replace(&mut self.nodes, outer)
     }
 }
 

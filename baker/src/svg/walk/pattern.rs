@@ -3,15 +3,16 @@
 use kurbo::{Affine, BezPath, Rect, Shape as _};
 use usvg::{Group, Node, Pattern};
 
+use super::{
+    group::{Effects, holds_open_blend},
+    walker::{Place, Walker},
+};
 use crate::{
     drawing::{FillRule, Paint, Shape, tree},
+    number::count,
     svg::{
-        Step,
         path::{affine, transformed_bounds},
-        walk::{
-            Place, Walker,
-            group::{Effects, holds_open_blend},
-        },
+        plan::Step,
     },
 };
 
@@ -235,8 +236,7 @@ fn weight(group: &Group, levels: u32) -> f64 {
     let of = |node: &Node| match node {
         Node::Group(group) => 4.0 + weight(group, levels),
         Node::Path(path) => {
-            #[expect(clippy::cast_precision_loss, reason = "an estimate")]
-            let verbs = path.data().verbs().len() as f64;
+            let verbs = count(path.data().verbs().len());
             let strokes = if path.stroke().is_some() { 4.0 } else { 0.0 };
             let paints = [
                 path.fill().map(usvg::Fill::paint),

@@ -1,10 +1,19 @@
-//! What usvg says about strokes, in the baker's terms.
+//! What usvg says about fills and strokes, in the baker's terms.
 
-use crate::geometry::stroke::StrokeStyle;
 use kurbo::{Cap, Join};
 
+use crate::{drawing::FillRule, geometry::stroke::StrokeStyle};
+
+/// The inside test of a fill.
+pub(super) fn fill_rule(rule: usvg::FillRule) -> FillRule {
+    match rule {
+        usvg::FillRule::NonZero => FillRule::NonZero,
+        usvg::FillRule::EvenOdd => FillRule::EvenOdd,
+    }
+}
+
 /// Everything about a stroke but its paint.
-pub(crate) fn stroke_style(stroke: &usvg::Stroke) -> StrokeStyle {
+pub(super) fn stroke_style(stroke: &usvg::Stroke) -> StrokeStyle {
     StrokeStyle {
         width: f64::from(stroke.width().get()),
         cap: match stroke.linecap() {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 /// Where the code has them, as `NAME = 1001 Fault "summary";`.
-pub(crate) const ISSUES: &str = "format/src/issue.rs";
+pub(crate) const ISSUES: &str = "format/src/container/issue.rs";
 /// Where the specification has them, as `| V1001 | fault | summary |`.
 pub(crate) const DOCUMENT: &str = "docs/format.md";
 
@@ -56,8 +56,8 @@ mod tests {
         assert_eq!(
             check(issues, &rows([1002, 1004]).concat()),
             [
-                "docs/format.md: lacks V1003 of format/src/issue.rs",
-                "docs/format.md: V1004 is not in format/src/issue.rs",
+                "docs/format.md: lacks V1003 of format/src/container/issue.rs",
+                "docs/format.md: V1004 is not in format/src/container/issue.rs",
             ]
         );
     }

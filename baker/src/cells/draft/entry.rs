@@ -1,0 +1,168 @@
+//! Entries before their tiles and records have places.
+
+use vtex_format::{SourceRecord, cut::CellCurves};
+
+use crate::{
+    cells::{
+        input::{CellInput, Present},
+        lists::TileDraft,
+        paint_table::PaintTable,
+    },
+    coverage::{curves::record::encode_record, placed::PlacedKind},
+    drawing::FillRule,
+};
+
+/// An entry before tiles have indices.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Draft<'a> {
+    Full { paint: u32 },
+    Tile { paint: u32, tile: TileDraft },
+    Curves(CurvesDraft<'a>),
+    Image { image: u32 },
+}
+
+/// Shapes of one cell that share a record.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct CurvesDraft<'a> {
+    pub(super) paint: u32,
+    rank: u32,
+    rule: FillRule,
+    parts: Vec<&'a CellCurves>,
+    pub(super) source: SourceRecord,
+    pub(super) words: Vec<u32>,
+}
+
+/// The entries of items that lie between groups, front to back: sorted, merged, folded, and cut
+/// behind the first that hides the rest.
+pub(super) fn draft_run<'a>(
+    input: &CellInput<'a>,
+    mut items: Vec<Present>,
+    cell: u32,
+    paints: &mut PaintTable,
+) -> Vec<Draft<'a>> {
+    // Members of a rank do not meet, so their order is free and equal paints may come together.
+    let free = !input.packing.forced;
+    items.sort_unstable_by_key(|present| {
+        let index = present.item as usize;
+        let paint = if free { input.paint_or_image[index] } else { 0 };
+        std::cmp::Reverse((input.packing.ranks[index], paint, present.item))
+    });
+    let mut drafts: Vec<Draft<'a>> = Vec::new();
+    let items = items.into_iter();
+    for draft in items.flat_map(|present| draft_item(input, present, cell)) {
+        let hides = draft.hides(paints);
+        let merged = match drafts.last_mut() {
+            Some(front) => merge(front, &draft, free, paints),
+            None => false,
+        };
+        if !merged {
+            drafts.push(draft);
+        }
+        if hides {
+            break;
+        }
+    }
+    drafts
+}
+
+/// The entries of one item: one, but for curves that a record is too small for.
+fn draft_item<'a>(input: &CellInput<'a>, present: Present, cell: u32) -> Vec<Draft<'a>> {
+    let Present { item, full } = present;
+    let index = item as usize;
+    let paint = input.paint_or_image[index];
+    if input.placed[index].kind == PlacedKind::Patch {
+        return vec![Draft::Image { image: paint }];
+    }
+    if full {
+        return vec![Draft::Full { paint }];
+    }
+    let curves = draft_curves(input, item, cell);
+    if !curves.is_empty() {
+        return curves.into_iter().map(Draft::Curves).collect();
+    }
+    let rank = input.packing.ranks[index];
+    let layer = input.layer_of_rank[rank as usize];
+    let tile = TileDraft {
+        layer,
+        cell,
+        items: vec![item],
+    };
+    vec![Draft::Tile { paint, tile }]
+}
+
+/// An item's outline in a cell: one record, or strips that add up to it.
+pub(super) fn draft_curves<'a>(
+    input: &CellInput<'a>,
+    item: u32,
+    cell: u32,
+) -> Vec<CurvesDraft<'a>> {
+    let index = item as usize;
+    let rule = input.placed[index].rule;
+    let parts = input.covers[index].curves_in(cell).iter();
+    let draft = |part| CurvesDraft {
+        paint: input.paint_or_image[index],
+        rank: input.packing.ranks[index],
+        rule,
+        // Every part fits a record of its own, or the outline would not be curves.
+        words: encode_record(&[part], rule).unwrap_or_default(),
+        parts: vec![part],
+        source: SourceRecord {
+            cell,
+            outlines: vec![item],
+        },
+    };
+    parts.map(draft).collect()
+}
+
+/// Takes `back` into `front` where one entry can stand for both. `apart` says that members of a
+/// rank do not meet.
+fn merge<'a>(
+    front: &mut Draft<'a>,
+    back: &Draft<'a>,
+    apart: bool,
+    paints: &mut PaintTable,
+) -> bool {
+    match (front, back) {
+        (Draft::Full { paint }, Draft::Full { paint: behind }) => {
+            let both = paints.intern_over(*paint, *behind);
+            *paint = both.unwrap_or(*paint);
+            both.is_some()
+        }
+        (
+            Draft::Tile { paint, tile },
+            Draft::Tile {
+                paint: other_paint,
+                tile: other,
+            },
+        ) if paint == other_paint && tile.layer == other.layer => {
+            tile.items.extend(&other.items);
+            tile.items.sort_unstable();
+            true
+        }
+        (Draft::Curves(front), Draft::Curves(back)) if apart => front.join(back),
+        _ => false,
+    }
+}
+
+impl Draft<'_> {
+    /// Whether nothing behind it shows in the cell.
+    pub(super) fn hides(&self, paints: &PaintTable) -> bool {
+        matches!(self, Self::Full { paint } if paints.is_opaque(*paint))
+    }
+}
+
+impl CurvesDraft<'_> {
+    fn join(&mut self, other: &Self) -> bool {
+        let alike = self.paint == other.paint && self.rank == other.rank && self.rule == other.rule;
+        if !alike {
+            return false;
+        }
+        let parts = [self.parts.as_slice(), &other.parts].concat();
+        let Ok(words) = encode_record(&parts, self.rule) else {
+            return false;
+        };
+        (self.parts, self.words) = (parts, words);
+        self.source.outlines.extend(&other.source.outlines);
+        true
+    }
+}

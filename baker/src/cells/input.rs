@@ -1,0 +1,60 @@
+//! What cell lists are made from, and the items of each cell.
+
+use super::packing::Packing;
+use crate::{
+    coverage::{
+        cover::Cover,
+        grid::Lattice,
+        placed::{Placed, PlacedKind},
+    },
+    drawing::tree::Tree,
+};
+
+/// What a cell list is made from: one record an item, in painter's order.
+#[derive(Debug)]
+pub(crate) struct CellInput<'a> {
+    /// The items.
+    pub(crate) placed: &'a [Placed],
+    /// Where they show; empty for patches.
+    pub(crate) covers: &'a [Cover],
+    /// Their paint, or their image for a patch.
+    pub(crate) paint_or_image: &'a [u32],
+    /// Their ranks.
+    pub(crate) packing: &'a Packing,
+    /// Layer of each rank.
+    pub(crate) layer_of_rank: &'a [u32],
+    /// How items belong together.
+    pub(crate) tree: &'a Tree,
+}
+
+/// An item that concerns a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Present {
+    /// Its index.
+    pub(super) item: u32,
+    /// Whether the cell lies inside it.
+    pub(super) full: bool,
+}
+
+/// For every cell the items in it, in painter's order, and whether they cover it whole.
+pub(super) fn items_by_cell(input: &CellInput<'_>, lattice: &Lattice) -> Vec<Vec<Present>> {
+    let mut by_cell = vec![Vec::new(); lattice.cell_count()];
+    for (item, (placed, cover)) in (0_u32..).zip(input.placed.iter().zip(input.covers)) {
+        if placed.kind != PlacedKind::Patch {
+            for &cell in &cover.cells.listed {
+                by_cell[cell as usize].push(Present { item, full: false });
+            }
+            for &cell in &cover.cells.full {
+                by_cell[cell as usize].push(Present { item, full: true });
+            }
+        } else if let Some([columns, rows]) = lattice.cells_in(placed.bounds()) {
+            for row in rows[0]..=rows[1] {
+                for column in columns[0]..=columns[1] {
+                    let cell = row * lattice.grid.size_cells[0] + column;
+                    by_cell[cell as usize].push(Present { item, full: false });
+                }
+            }
+        }
+    }
+    by_cell
+}

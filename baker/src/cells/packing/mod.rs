@@ -1,0 +1,79 @@
+//! Greedy order-preserving packing into subsets whose members never meet.
+//!
+//! Item i gets the lowest rank above every earlier item that meets it; two items meet when their
+//! filled regions, as seen inside a window, come within a reach of each other. By construction
+//! members of a rank do not meet, painter's order is kept wherever it shows, and the number of
+//! ranks is the length of the longest chain of items each of which meets the next.
+
+mod packer;
+#[cfg(test)]
+mod tests;
+
+use kurbo::Rect;
+
+use crate::coverage::{grid::Lattice, placed::Placed, scales::Scales};
+use packer::Packer;
+
+/// Ranks of items in painter's order.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Packing {
+    /// Rank of each item; the backmost is 0.
+    pub(crate) ranks: Vec<u32>,
+    /// How many ranks there are.
+    pub(crate) count: u32,
+    /// Whether some items met though all were to share one rank.
+    pub(crate) forced: bool,
+}
+
+/// Packs the items of a drawing; `merge` puts all into one rank instead.
+pub(crate) fn pack_items(
+    placed: &[Placed],
+    lattice: &Lattice,
+    scales: &Scales,
+    merge: bool,
+) -> Packing {
+    // Two shapes in a tile must keep out of each other's distances, two in a curve record only
+    // out of each other's ramps.
+    let shapes = || placed.iter().filter(|item| item.is_shape());
+    let reach = if shapes().all(Placed::is_curves) {
+        2.0 * scales.distances.margin
+    } else {
+        scales.range
+    };
+    let window = lattice.canvas.inflate(reach, reach);
+    if merge {
+        merge_all(placed, window, reach)
+    } else {
+        pack(placed, window, reach)
+    }
+}
+
+/// Packs `items`. What lies outside `window` does not count, two items within `reach` steps do.
+fn pack(items: &[Placed], window: Rect, reach: f64) -> Packing {
+    let mut packer = Packer::new(items, window, reach);
+    for index in 0..items.len() {
+        packer.add(index);
+    }
+    Packing {
+        count: ranks_to_u32(packer.members.len()),
+        ranks: packer
+            .ranks
+            .iter()
+            .map(|&rank| ranks_to_u32(rank))
+            .collect(),
+        forced: false,
+    }
+}
+
+/// \[SFG22\]'s "merge all": every item in rank 0, whatever they touch.
+fn merge_all(items: &[Placed], window: Rect, reach: f64) -> Packing {
+    Packing {
+        ranks: vec![0; items.len()],
+        count: u32::from(!items.is_empty()),
+        forced: pack(items, window, reach).count > 1,
+    }
+}
+
+fn ranks_to_u32(n: usize) -> u32 {
+    u32::try_from(n).unwrap_or(u32::MAX)
+}

@@ -1,0 +1,191 @@
+//! Which earlier items an item meets: boundaries by distance, found through buckets; insides by
+//! points.
+
+use kurbo::{Line, Point, Rect};
+
+use crate::{
+    coverage::placed::{Placed, PlacedKind},
+    geometry::{clip_line, flatten, line_line_distance, pieces},
+    number::floor_index,
+};
+
+/// How far flattening may move an outline, in steps; the reach grows by both outlines' share.
+pub(super) const FLATTEN_TOLERANCE: f64 = 0.05;
+/// Buckets along the window's longer side; a line is as long as a bucket at most.
+const BUCKETS: f64 = 128.0;
+
+/// The part of an item's boundary that lies in the window.
+#[derive(Debug, Default)]
+struct Boundary {
+    lines: Vec<Line>,
+    /// One point of every connected run of lines.
+    run_points: Vec<Point>,
+}
+
+/// The items so far and their ranks.
+pub(super) struct Packer<'a> {
+    items: &'a [Placed],
+    window: Rect,
+    reach: f64,
+    /// Rank of each item so far.
+    pub(super) ranks: Vec<usize>,
+    /// Items of each rank.
+    pub(super) members: Vec<Vec<usize>>,
+    run_points: Vec<Vec<Point>>,
+    buckets: Buckets,
+}
+
+impl<'a> Packer<'a> {
+    /// Before the first item. What lies outside `window` does not count, and items within `reach`
+    /// steps of each other meet.
+    pub(super) fn new(items: &'a [Placed], window: Rect, reach: f64) -> Self {
+        let reach = reach + 2.0 * FLATTEN_TOLERANCE;
+        Self {
+            items,
+            window,
+            reach,
+            ranks: Vec::with_capacity(items.len()),
+            members: Vec::new(),
+            run_points: Vec::with_capacity(items.len()),
+            buckets: Buckets::new(window, reach),
+        }
+    }
+
+    /// Ranks the next item.
+    pub(super) fn add(&mut self, index: usize) {
+        // What is not painted is in nobody's way.
+        if self.items[index].kind == PlacedKind::Clip {
+            self.run_points.push(Vec::new());
+            self.ranks.push(0);
+            return;
+        }
+        let side = self.buckets.side;
+        let boundary = boundary(&self.items[index], self.window, side);
+        self.run_points.push(boundary.run_points);
+        let floor = self.rank_above_near(&boundary.lines);
+        let rank = self.rank_above_containing(index, floor);
+        if rank == self.members.len() {
+            self.members.push(Vec::new());
+        }
+        self.members[rank].push(index);
+        self.ranks.push(rank);
+        for line in boundary.lines {
+            self.buckets.insert(index, line);
+        }
+    }
+
+    /// The lowest rank above every earlier item whose boundary comes within reach of `lines`.
+    fn rank_above_near(&self, lines: &[Line]) -> usize {
+        let mut lowest = 0;
+        for line in lines {
+            let area = Rect::from_points(line.p0, line.p1).inflate(self.reach, self.reach);
+            for bucket in self.buckets.in_box(area) {
+                // Later items tend to have higher ranks, after which the others need no distance.
+                for &(item, other) in self.buckets.lines[bucket].iter().rev() {
+                    let rank = self.ranks[item];
+                    if rank >= lowest && line_line_distance(*line, other) <= self.reach {
+                        lowest = rank + 1;
+                    }
+                }
+            }
+        }
+        lowest
+    }
+
+    /// The lowest rank from `floor` on above every earlier item that contains the item or is
+    /// contained in it.
+    fn rank_above_containing(&self, index: usize, floor: usize) -> usize {
+        (floor..self.members.len())
+            .rev()
+            .find(|&rank| {
+                let mut members = self.members[rank].iter();
+                members.any(|&member| self.one_holds_other(index, member))
+            })
+            .map_or(floor, |rank| rank + 1)
+    }
+
+    /// For two items whose boundaries inside the window do not touch: whether they overlap. Then a
+    /// whole run of one's boundary lies in the other, or both fill the window.
+    fn one_holds_other(&self, a: usize, b: usize) -> bool {
+        let (item_a, item_b) = (&self.items[a], &self.items[b]);
+        let common = item_a.bounds().intersect(item_b.bounds());
+        if common.width() <= 0.0 || common.height() <= 0.0 {
+            return false;
+        }
+        let holds = |outer: &Placed, runs: &[Point]| runs.iter().any(|p| outer.region.contains(*p));
+        let center = self.window.center();
+        holds(item_a, &self.run_points[b])
+            || holds(item_b, &self.run_points[a])
+            || (item_a.region.contains(center) && item_b.region.contains(center))
+    }
+}
+
+fn boundary(item: &Placed, window: Rect, longest: f64) -> Boundary {
+    let mut boundary = Boundary::default();
+    if item.bounds().overlaps(window) {
+        for contour in flatten(&item.outline, FLATTEN_TOLERANCE) {
+            add_contour(&contour, window, longest, &mut boundary);
+        }
+    }
+    boundary
+}
+
+fn add_contour(contour: &[Point], window: Rect, longest: f64, boundary: &mut Boundary) {
+    let mut run_end = None;
+    for ends in contour.windows(2) {
+        let Some(line) = clip_line(Line::new(ends[0], ends[1]), window) else {
+            run_end = None;
+            continue;
+        };
+        if run_end != Some(line.p0) {
+            boundary.run_points.push(line.p0);
+        }
+        run_end = Some(line.p1);
+        boundary.lines.extend(pieces(line, longest));
+    }
+}
+
+/// Lines by where they lie.
+struct Buckets {
+    origin: Point,
+    side: f64,
+    columns: usize,
+    rows: usize,
+    /// Item and line, in painter's order.
+    lines: Vec<Vec<(usize, Line)>>,
+}
+
+impl Buckets {
+    fn new(window: Rect, reach: f64) -> Self {
+        let side = (window.width().max(window.height()) / BUCKETS).max(reach);
+        let columns = floor_index(window.width() / side) + 1;
+        let rows = floor_index(window.height() / side) + 1;
+        Self {
+            origin: window.origin(),
+            side,
+            columns,
+            rows,
+            lines: vec![Vec::new(); columns * rows],
+        }
+    }
+
+    fn in_box(&self, area: Rect) -> impl Iterator<Item = usize> + use<> {
+        let columns = self.columns;
+        let at = |x: f64, size: usize| floor_index(x / self.side).min(size - 1);
+        let (left, right) = (
+            at(area.x0 - self.origin.x, columns),
+            at(area.x1 - self.origin.x, columns),
+        );
+        let (top, bottom) = (
+            at(area.y0 - self.origin.y, self.rows),
+            at(area.y1 - self.origin.y, self.rows),
+        );
+        (top..=bottom).flat_map(move |row| (left..=right).map(move |column| row * columns + column))
+    }
+
+    fn insert(&mut self, item: usize, line: Line) {
+        for bucket in self.in_box(Rect::from_points(line.p0, line.p1)) {
+            self.lines[bucket].push((item, line));
+        }
+    }
+}

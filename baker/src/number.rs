@@ -1,0 +1,23 @@
+//! Conversions between kinds of numbers that the compiler cannot vouch for.
+
+/// A number as the file stores it.
+#[expect(clippy::cast_possible_truncation, reason = "stored as f32")]
+pub(crate) fn to_f32(x: f64) -> f32 {
+    x as f32
+}
+
+/// `floor(x)` as an index; negative numbers and NaN become 0.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a float cast saturates and callers clamp to their array"
+)]
+pub(crate) fn floor_index(x: f64) -> usize {
+    x.floor() as usize
+}
+
+/// A number of things in memory, exact because there are fewer than 2^52.
+#[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
+pub(crate) fn count(n: usize) -> f64 {
+    n as f64
+}

@@ -1,0 +1,77 @@
+//! What stands in for shapes that cannot be curves.
+
+use vtex_format::{Warning, WarningCode};
+
+use crate::{
+    coverage::{
+        cover::Cover,
+        curves::CurveError,
+        grid::Lattice,
+        placed::{Placed, place_item},
+        verdict::{Coverage, Verdict},
+    },
+    drawing::{Drawing, Item, Patch},
+    number::count,
+    raster::patch::{self, PatchSettings},
+};
+
+/// Puts patches in the place of shapes that cannot be curves.
+pub(crate) fn patch_failures(
+    covers: Vec<Result<Cover, CurveError>>,
+    drawing: &mut Drawing,
+    placed: &mut [Placed],
+    lattice: &Lattice,
+    settings: PatchSettings,
+) -> Vec<Cover> {
+    let failures = covers.iter().filter(|cover| cover.is_err()).count();
+    let share = 1.0 / count(failures.max(1));
+    let longer = drawing.longer_side();
+    let items = drawing.items.iter_mut().zip(placed);
+    let mut resolved = Vec::with_capacity(covers.len());
+    for (cover, (item, placed)) in covers.into_iter().zip(items) {
+        resolved.push(cover.unwrap_or_else(|_| {
+            let shape = match item {
+                Item::Shape(shape) => shape,
+                Item::Clip(_) => {
+                    drawing.warnings.push(clip_warning());
+                    return Cover::everywhere(lattice);
+                }
+                Item::Patch(_) => return Cover::default(),
+            };
+            // A shape of which nothing shows is listed nowhere.
+            if let Some(patch) = patch::of_shape(shape, settings, share) {
+                drawing
+                    .warnings
+                    .push(failure_warning(&patch, drawing.canvas_size));
+                *item = Item::Patch(patch);
+                *placed = place_item(item, lattice, longer, Verdict::forced(Coverage::Msdf));
+            }
+            Cover::default()
+        }));
+    }
+    resolved
+}
+
+fn clip_warning() -> Warning {
+    Warning {
+        code: WarningCode::PathFallback,
+        feature: "clipPath".into(),
+        element: String::new(),
+        message: "an outline to clip to is too complex for curves; nothing is clipped to it".into(),
+        area: 0.0,
+    }
+}
+
+fn failure_warning(patch: &Patch, canvas_size: [f64; 2]) -> Warning {
+    let [width, height] = patch.image.size;
+    Warning {
+        code: WarningCode::PathFallback,
+        feature: patch.feature.clone(),
+        element: patch.element.clone(),
+        message: format!(
+            "this outline is too complex for curves; it is stored as a raster of {width} x {height} \
+             texels"
+        ),
+        area: patch.area(canvas_size),
+    }
+}

@@ -1,0 +1,112 @@
+//! The grid that a drawing is laid on, and what each item is to its cells.
+
+use kurbo::Shape as _;
+
+use super::fallback::patch_failures;
+use crate::{
+    config::BakeConfig,
+    coverage::{
+        cover::{Cover, cover},
+        curves::CurveError,
+        grid::Lattice,
+        judge::judge,
+        placed::{Placed, PlacedKind, place},
+        scales::Scales,
+        verdict::{Judgement, Verdict},
+    },
+    drawing::Drawing,
+    raster::patch::PatchSettings,
+};
+
+/// Pieces of outlines in cells beyond which no finer grid is tried: 200 MiB of them.
+const MAX_PIECES: f64 = 2e6;
+
+/// A drawing on its grid.
+#[derive(Debug)]
+pub(crate) struct Layout {
+    /// The grid and the lattice of its texels.
+    pub(crate) lattice: Lattice,
+    /// Distances on it.
+    pub(crate) scales: Scales,
+    /// The items, in painter's order.
+    pub(crate) placed: Vec<Placed>,
+    /// What each of them is to the cells.
+    pub(crate) covers: Vec<Cover>,
+}
+
+/// Decides for each shape what it becomes and lays the drawing on a grid. Shapes that cannot be
+/// what was decided become patches of `drawing`.
+pub(crate) fn lay_out(drawing: &mut Drawing, config: &BakeConfig) -> Layout {
+    let judgement = judge(drawing, config);
+    let attempt = lay(drawing, &judgement, config);
+    let Attempt {
+        lattice,
+        scales,
+        mut placed,
+        covers,
+    } = attempt;
+    let settings = PatchSettings::new(drawing.canvas_size, config);
+    let covers = patch_failures(covers, drawing, &mut placed, &lattice, settings);
+    Layout {
+        lattice,
+        scales,
+        placed,
+        covers,
+    }
+}
+
+/// A drawing on a grid that some of its shapes may be too complex for.
+struct Attempt {
+    lattice: Lattice,
+    scales: Scales,
+    placed: Vec<Placed>,
+    covers: Vec<Result<Cover, CurveError>>,
+}
+
+impl Attempt {
+    fn new(drawing: &Drawing, verdicts: &[Verdict], config: &BakeConfig, lattice: Lattice) -> Self {
+        let scales = Scales::new(config, &lattice);
+        let placed = place(drawing, &lattice, verdicts);
+        let covers = cover(&placed, &lattice, &scales);
+        Self {
+            lattice,
+            scales,
+            placed,
+            covers,
+        }
+    }
+}
+
+/// Lays the drawing on the coarsest grid whose cells have room for its outlines.
+fn lay(drawing: &Drawing, judgement: &Judgement, config: &BakeConfig) -> Attempt {
+    let (canvas_size, mip0_size) = (drawing.canvas_size, config.mip0_size);
+    let msdf_size = judgement.msdf_size;
+    let on = |lattice| Attempt::new(drawing, &judgement.verdicts, config, lattice);
+    if !judgement.all_curves(&drawing.items) {
+        return on(Lattice::new(canvas_size, msdf_size));
+    }
+    let mut attempt = on(Lattice::for_curves(canvas_size, msdf_size, mip0_size));
+    // What is too much for a cell may not be for its parts.
+    while attempt.covers.iter().any(Result::is_err) {
+        let halved = attempt.lattice.halved(canvas_size, mip0_size);
+        let Some(halved) = halved.filter(|halved| pieces(&attempt.placed, halved) <= MAX_PIECES)
+        else {
+            break;
+        };
+        attempt = on(halved);
+    }
+    attempt
+}
+
+/// About how many pieces the cells of a lattice cut outlines into, which are placed on another.
+fn pieces(placed: &[Placed], lattice: &Lattice) -> f64 {
+    let shapes = placed.iter().filter(|item| item.kind != PlacedKind::Patch);
+    let segments = shapes.flat_map(|item| item.outline.segments());
+    let reach: f64 = segments
+        .map(|segment| {
+            let bounds = segment.bounding_box();
+            (bounds.width() + bounds.height()) / lattice.longer_steps()
+        })
+        .sum();
+    reach * f64::from(lattice.grid.size_cells[0].max(lattice.grid.size_cells[1]))
+}

@@ -1,0 +1,147 @@
+//! How fine patches are: what is wanted, and what memory and time allow.
+
+use kurbo::Rect;
+
+use crate::{
+    config::BakeConfig,
+    svg::{Cost, Subtree},
+};
+
+/// Patch texels for each texel of mip 0, when there is room. More gives crisper edges until curve
+/// and gradient cells make patches rare.
+const FINEST_DENSITY: f64 = 8.0;
+/// Below this a patch is visibly blurred soon after mip 0 is left behind: worth a warning.
+pub(super) const WANTED_DENSITY: f64 = 4.0;
+/// Texels of a patch's longer side, besides up to three at its ends; RGBA of that square is 21 MiB
+/// with its mips.
+const MAX_PATCH_SIDE: f64 = 2048.0;
+/// Level 0 texels of all patches of a file: 32 MiB with their mips.
+pub(super) const MAX_PATCH_TEXELS: f64 = 6_291_456.0;
+/// Bytes of resvg's layers while one patch is painted. Past it the patch gets coarser.
+const MAX_LAYER_BYTES: f64 = 536_870_912.0;
+/// Texels of one pattern tile, 256 MiB. Past it the patch gets coarser.
+const MAX_PATTERN_TEXELS: f64 = 67_108_864.0;
+/// resvg bounds a layer to this multiple of its pixmap, each way.
+const LAYER_OVERHANG: f64 = 5.0;
+
+/// How patches are made for one drawing.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PatchSettings {
+    /// Width and height of the canvas in user units.
+    pub(crate) canvas_size: [f64; 2],
+    /// Texels of mip 0's longer side.
+    pub(crate) mip0_size: u32,
+    /// Largest magnification.
+    pub(crate) max_zoom: f64,
+}
+
+impl PatchSettings {
+    /// Of a bake of a canvas of `canvas_size`.
+    pub(crate) fn new(canvas_size: [f64; 2], config: &BakeConfig) -> Self {
+        Self {
+            canvas_size,
+            mip0_size: config.mip0_size,
+            max_zoom: f64::from(config.max_zoom),
+        }
+    }
+
+    fn finest_density(self) -> f64 {
+        FINEST_DENSITY.min(self.max_zoom.max(1.0))
+    }
+
+    /// Below it a patch deserves a warning.
+    pub(super) fn wanted_density(self) -> f64 {
+        WANTED_DENSITY.min(self.max_zoom.max(1.0))
+    }
+
+    /// Texels a user unit at density 1.
+    fn base_scale(self) -> f64 {
+        f64::from(self.mip0_size) / self.canvas_size[0].max(self.canvas_size[1])
+    }
+
+    /// The canvas in user units.
+    pub(super) fn canvas_rect(self) -> Rect {
+        Rect::new(0.0, 0.0, self.canvas_size[0], self.canvas_size[1])
+    }
+
+    /// The largest density at which the patches of all `subtrees` together stay within their budget.
+    pub(super) fn common_density<'a, 'b: 'a>(
+        self,
+        subtrees: impl Iterator<Item = &'a Subtree<'b>>,
+    ) -> f64 {
+        let subtrees: Vec<(Rect, f64)> = subtrees
+            .map(|s| {
+                (
+                    s.bounds.intersect(self.canvas_rect()),
+                    self.density_limit(s),
+                )
+            })
+            .collect();
+        let mut density = self.finest_density();
+        // Borders make the sum not quite quadratic in the density: a few rounds converge.
+        for _ in 0..16 {
+            let texels = |&(bounds, limit): &(Rect, f64)| {
+                let scale = self.base_scale() * density.min(limit);
+                (bounds.width() * scale + 2.0) * (bounds.height() * scale + 2.0)
+            };
+            let total: f64 = subtrees.iter().map(texels).sum();
+            if total <= MAX_PATCH_TEXELS {
+                break;
+            }
+            density *= (MAX_PATCH_TEXELS / total).sqrt() * 0.999;
+        }
+        density
+    }
+
+    /// The density of one patch that may take this `share` of what all patches may.
+    pub(super) fn density_of_share(self, bounds: Rect, share: f64) -> f64 {
+        let texels = bounds.area() * self.base_scale().powi(2);
+        self.finest_density()
+            .min(self.density_for_side(bounds))
+            .min((share * MAX_PATCH_TEXELS / texels.max(1.0)).sqrt())
+    }
+
+    /// The density of a patch of the whole canvas.
+    pub(super) fn density_of_canvas(self) -> f64 {
+        self.finest_density()
+            .min(MAX_PATCH_SIDE / f64::from(self.mip0_size))
+    }
+
+    fn density_for_side(self, bounds: Rect) -> f64 {
+        let side = bounds.width().max(bounds.height()) * self.base_scale();
+        MAX_PATCH_SIDE / side.max(f64::MIN_POSITIVE)
+    }
+
+    /// Bounds of one subtree's density: side, layers, patterns, filters.
+    pub(super) fn density_limit(self, subtree: &Subtree<'_>) -> f64 {
+        let visible = subtree.bounds.intersect(self.canvas_rect());
+        let cost = Cost::of_node(subtree.node, subtree.canvas_from_parent, self.canvas_size);
+        let base = self.base_scale();
+        let layer_area = subtree.bounds.width().min(LAYER_OVERHANG * visible.width())
+            * subtree
+                .bounds
+                .height()
+                .min(LAYER_OVERHANG * visible.height());
+        let layer_bytes = 4.0 * cost.layers * layer_area * base * base;
+        let pattern_texels = cost.pattern_area * base * base;
+        let for_layers = (MAX_LAYER_BYTES / layer_bytes.max(f64::MIN_POSITIVE)).sqrt();
+        let for_patterns = (MAX_PATTERN_TEXELS / pattern_texels.max(f64::MIN_POSITIVE)).sqrt();
+        self.density_for_side(visible)
+            .min(for_layers)
+            .min(for_patterns)
+            .min(cost.filter_density(base))
+    }
+
+    /// Texels of the whole canvas at a density. The canvas covers them exactly, at the price of
+    /// texels that are not quite square.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "positive; `as` saturates and the side limit keeps windows small"
+    )]
+    pub(super) fn lattice(self, density: f64) -> [u32; 2] {
+        let scale = self.base_scale() * density;
+        self.canvas_size
+            .map(|side| (side * scale).ceil().max(1.0) as u32)
+    }
+}

@@ -1,0 +1,285 @@
+//! Embedded raster images that keep their own texels.
+
+use kurbo::{Affine, Rect};
+use tiny_skia::Pixmap;
+use usvg::{ImageKind, ImageRendering, Node};
+use vtex_format::EMBEDDED_SOURCE;
+
+use super::resvg::paint_node;
+use crate::{
+    drawing::Patch,
+    number::to_f32,
+    raster::{
+        detail,
+        mips::{self, LinearImage},
+        texel,
+    },
+    svg::{Step, Subtree},
+};
+
+/// Texels of all images of a file that keep theirs: 32 MiB with their mips. Those beyond are
+/// patches like any other.
+const MAX_TEXELS: u64 = 6_291_456;
+/// Texels that an image is enlarged to by resvg: between texels lookups are bilinear, resvg is
+/// bicubic, or takes the nearest.
+const MAX_ENLARGED_TEXELS: u64 = 1 << 20;
+/// Most texels along each axis for one of an image that is smoothed.
+const MAX_SMOOTH: u32 = 8;
+/// And of one that is not: the blur left between its texels is a 16th of one wide.
+const MAX_SHARP: u32 = 16;
+/// Share of a scale below which a turn is none.
+const UPRIGHT: f64 = 1e-6;
+
+/// The texels of an image as it is stored in the SVG.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Native {
+    /// Texels of the image.
+    size: [u32; 2],
+    /// Stored texels for each along both axes.
+    enlarged: u32,
+    /// Whether it is mirrored along x, along y.
+    mirrored: [bool; 2],
+}
+
+impl Native {
+    /// `None` for what is no image of texels, and for an image that is turned: the rectangles of a
+    /// file's images are upright.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "sizes of images are whole numbers within limits that the parser has checked"
+    )]
+    fn of(subtree: &Subtree<'_>) -> Option<Self> {
+        let Node::Image(image) = subtree.node else {
+            return None;
+        };
+        if matches!(image.kind(), ImageKind::SVG(_)) {
+            return None;
+        }
+        let [a, b, c, d, ..] = subtree.canvas_from_parent.as_coeffs();
+        let least = a.abs().min(d.abs());
+        let upright = least > 0.0 && b.abs().max(c.abs()) <= UPRIGHT * least;
+        let size = [image.size().width(), image.size().height()];
+        if !upright || size.iter().any(|side| !(1.0..=32_768.0).contains(side)) {
+            return None;
+        }
+        let size = size.map(|side| side as u32);
+        let texels = u64::from(size[0]) * u64::from(size[1]);
+        let most = match image.rendering_mode() {
+            ImageRendering::OptimizeSpeed
+            | ImageRendering::CrispEdges
+            | ImageRendering::Pixelated => MAX_SHARP,
+            ImageRendering::OptimizeQuality
+            | ImageRendering::Smooth
+            | ImageRendering::HighQuality => MAX_SMOOTH,
+        };
+        let enlarged = (MAX_ENLARGED_TEXELS / texels)
+            .isqrt()
+            .clamp(1, u64::from(most));
+        Some(Self {
+            size,
+            enlarged: enlarged as u32,
+            mirrored: [a < 0.0, d < 0.0],
+        })
+    }
+
+    fn stored_size(self) -> [u32; 2] {
+        self.size.map(|side| side * self.enlarged)
+    }
+
+    fn enlarged_at_most(self, most: u32) -> Self {
+        Self {
+            enlarged: self.enlarged.min(most),
+            ..self
+        }
+    }
+
+    fn texels(self) -> u64 {
+        let [width, height] = self.stored_size().map(u64::from);
+        width * height
+    }
+
+    /// The image at its place; `None` when it could not be painted.
+    pub(super) fn patch(self, subtree: &Subtree<'_>, canvas_size: [f64; 2]) -> Option<Patch> {
+        let size = self.stored_size();
+        let mut pixmap = Pixmap::new(size[0], size[1])?;
+        let texel_from_image = Affine::scale(self.enlarged.into());
+        paint_node(subtree.node, texel_from_image, &mut pixmap)?;
+        let texels = pixmap.data().as_chunks::<4>().0;
+        let mut level0 = LinearImage {
+            size,
+            texels: texels.iter().map(|&t| texel::linear_from_skia(t)).collect(),
+        };
+        level0.mirror(self.mirrored);
+        // What the cubic adds may be nothing.
+        if self.enlarged > 1 {
+            level0 = detail::fitted(level0);
+        }
+        let [width, height] = self.size.map(f64::from);
+        let placed = Rect::new(0.0, 0.0, width, height);
+        let rect = subtree.canvas_from_parent.transform_rect_bbox(placed);
+        let [across, down] = canvas_size;
+        let rect_uv = [
+            rect.x0 / across,
+            rect.y0 / down,
+            rect.x1 / across,
+            rect.y1 / down,
+        ];
+        Some(Patch {
+            rect,
+            image: mips::chain(level0, rect_uv.map(to_f32)),
+            feature: EMBEDDED_SOURCE.to_owned(),
+            element: subtree.element.clone(),
+        })
+    }
+}
+
+/// For each step its own texels, where it is an image that keeps them.
+pub(super) fn choose(steps: &[Step<'_>]) -> Vec<Option<Native>> {
+    let native = |step: &Step<'_>| match step {
+        Step::Raster(subtree) => Native::of(subtree),
+        Step::Shape(_) | Step::Clip(_) => None,
+    };
+    let mut natives: Vec<Option<Native>> = steps.iter().map(native).collect();
+    share_out(natives.iter_mut());
+    natives
+}
+
+/// Enlarges all images of a drawing as far as there are texels for; the last ones are patches where
+/// there are too few for the images themselves.
+fn share_out<'a>(images: impl Iterator<Item = &'a mut Option<Native>>) {
+    let mut images: Vec<&mut Option<Native>> = images.filter(|image| image.is_some()).collect();
+    let total = |images: &[&mut Option<Native>], most: u32| -> u64 {
+        let images = images.iter().flat_map(|image| image.iter());
+        images
+            .map(|image| image.enlarged_at_most(most).texels())
+            .sum()
+    };
+    let mut most = MAX_SHARP;
+    while most > 1 && total(&images, most) > MAX_TEXELS {
+        most -= 1;
+    }
+    let mut left = MAX_TEXELS;
+    for image in &mut images {
+        let kept = image.map(|image| image.enlarged_at_most(most));
+        let rest = kept.and_then(|kept| left.checked_sub(kept.texels()));
+        **image = kept.filter(|_| rest.is_some());
+        left = rest.unwrap_or(left);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Write as _;
+
+    use tiny_skia::{Pixmap, PremultipliedColorU8};
+    use vtex_shaders::{PackOptions, cpu, pack};
+
+    use crate::{BakeConfig, Resources, bake};
+
+    /// A checkered image of 6 x 4 texels, red above and blue below, as the `href` of an element.
+    fn image(attributes: &str) -> String {
+        let mut pixmap = Pixmap::new(6, 4).unwrap();
+        for (index, pixel) in pixmap.pixels_mut().iter_mut().enumerate() {
+            let (x, y) = (index % 6, index / 6);
+            let (red, blue) = if y < 2 { (255, 0) } else { (0, 255) };
+            let green = if (x + y) % 2 == 0 { 200 } else { 0 };
+            *pixel = PremultipliedColorU8::from_rgba(red, green, blue, 255).unwrap();
+        }
+        let png = pixmap.encode_png().unwrap();
+        let quoted = png.iter().fold(String::new(), |mut text, byte| {
+            let _ = write!(text, "%{byte:02X}");
+            text
+        });
+        format!("<image {attributes} href='data:image/png,{quoted}'/>")
+    }
+
+    fn baked(body: &str) -> vtex_format::VtexFile {
+        let svg =
+            format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 100'>{body}</svg>");
+        bake(
+            svg.as_bytes(),
+            &BakeConfig::default(),
+            &Resources::default(),
+        )
+        .unwrap()
+    }
+
+    #[test]
+    fn an_upright_image_keeps_its_texels_and_its_edges() {
+        let body = image(
+            "x='10' y='20' width='60' height='40' preserveAspectRatio='none' \
+             image-rendering='optimizeSpeed'",
+        );
+        let file = baked(&body);
+        assert!(
+            file.provenance.as_ref().unwrap().warnings.is_empty(),
+            "it is no patch"
+        );
+        let [_, image] = file.images.as_slice() else {
+            panic!("the canvas and the image");
+        };
+        assert_eq!(image.size[0] * 4, image.size[1] * 6, "{:?}", image.size);
+        assert_eq!(image.rect_uv, [0.1, 0.2, 0.7, 0.6]);
+        let words = pack(&file, &PackOptions::default());
+        let at = |u: f32, v: f32| cpu::Sampler::new(&words).sample([u, v], [0.0; 4]);
+        assert_eq!(at(0.0999, 0.25), [0.0; 4]);
+        // Within a tenth of a texel of its own edges every texel has one colour.
+        for (place, [x, y]) in [(0.0, [0, 0]), (1e-4, [0, 0]), (0.05, [0, 3]), (0.5, [5, 2])] {
+            let inside = |index: u8| 0.1 * (f32::from(index) + 0.1 + 0.8 * place);
+            let seen = at(0.1 + inside(x), 0.2 + inside(y));
+            let green = if (x + y) % 2 == 0 { 200.0 / 255.0 } else { 0.0 };
+            let rgb = if y < 2 {
+                [1.0, green, 0.0]
+            } else {
+                [0.0, green, 1.0]
+            };
+            let expected = cpu::color::decode(rgb);
+            let near = seen.iter().zip(expected).all(|(a, b)| (a - b).abs() < 2e-3);
+            assert!(near, "{x} {y}: {seen:?} {expected:?}");
+        }
+    }
+
+    #[test]
+    fn a_turned_image_is_a_patch() {
+        let file = baked(&image("width='60' height='40' transform='rotate(10)'"));
+        let warnings = &file.provenance.as_ref().unwrap().warnings;
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+    }
+
+    #[test]
+    fn a_mirrored_image_keeps_its_texels() {
+        let upright = baked(&image("width='60' height='40'"));
+        let places = "translate(100 100) scale(-1 -1)";
+        let turned = baked(&image(&format!(
+            "width='60' height='40' transform='{places}'"
+        )));
+        assert!(turned.provenance.as_ref().unwrap().warnings.is_empty());
+        let [words, mirrored] = [&upright, &turned].map(|file| pack(file, &PackOptions::default()));
+        for (u, v) in [(0.07, 0.03), (0.21, 0.33), (0.55, 0.12), (0.59, 0.39)] {
+            let seen = cpu::Sampler::new(&words).sample([u, v], [0.0; 4]);
+            let again = cpu::Sampler::new(&mirrored).sample([1.0 - u, 1.0 - v], [0.0; 4]);
+            let near = seen.iter().zip(again).all(|(a, b)| (a - b).abs() < 2e-3);
+            assert!(near, "{u} {v}: {seen:?} {again:?}");
+        }
+    }
+
+    #[test]
+    fn images_share_a_budget() {
+        let native = super::Native {
+            size: [1000, 1000],
+            enlarged: 2,
+            mirrored: [false; 2],
+        };
+        let shared = |count: usize| {
+            let mut images = vec![Some(native); count];
+            super::share_out(images.iter_mut());
+            let enlarged = images.iter().map(|image| image.map(|image| image.enlarged));
+            enlarged.collect::<Vec<_>>()
+        };
+        assert_eq!(shared(1), [Some(2)]);
+        assert_eq!(shared(2), [Some(1); 2]);
+        let most = [[Some(1); 6].as_slice(), &[None; 2]].concat();
+        assert_eq!(shared(8), most);
+    }
+}

@@ -1,0 +1,318 @@
+//! How the entries of a list hang together: what is clipped by what, which groups there are.
+//!
+//! A list is a row of *blocks*, front to back, each of which is
+//!
+//! - an entry that draws;
+//! - a *clip*: tests, then the blocks that they let through. A test passes over entries as far as a
+//!   later test of its own clip, the first block behind them all, or the clip's end;
+//! - a *group*: any number of masks, each `Open` (isolated), blocks, `Mask`, then `Open`, blocks,
+//!   `Close`. A mask passes over all that follows it as far as behind the `Close`.
+//!
+//! Where a clip begins and ends follows from where its tests jump: it is the shortest run of entries
+//! from its first test on that no test inside it leaves.
+
+use std::ops::Range;
+
+use super::cell::{Entry, EntryKind};
+use super::control::{BlendMode, OPEN_ISOLATED};
+
+/// Groups and clips that may lie in one another: what an evaluator keeps for each is an array of so
+/// many. Deeper drawings are for the baker to flatten.
+pub const MAX_FRAMES: u32 = 32;
+/// Clips that parsing enters before those with one end become one. Bounds its recursion.
+const MAX_DEPTH: u32 = 64;
+
+/// A part of a list. Numbers count entries from the list's first.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Block {
+    /// An entry that draws.
+    Draw(usize),
+    /// Blocks that show where tests let them through.
+    Clip {
+        /// The tests. [`jump_target`] of each is in the range, its end, or the end of the body.
+        tests: Range<usize>,
+        /// What they guard; not empty.
+        body: Vec<Self>,
+    },
+    /// Blocks composited as one.
+    Group {
+        /// What its weight is multiplied with.
+        masks: Vec<MaskBlock>,
+        /// The `Open`.
+        open: usize,
+        /// What is drawn; may be empty.
+        body: Vec<Self>,
+        /// The `Close`.
+        close: usize,
+    },
+}
+
+/// A mask of a group.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MaskBlock {
+    /// The `Open`.
+    pub open: usize,
+    /// What is drawn; may be empty.
+    pub body: Vec<Block>,
+    /// The `Mask`.
+    pub close: usize,
+}
+
+/// What is wrong with the control entries of a list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{kind} at entry {entry}")]
+pub struct ListFault {
+    /// The entry from the list's first.
+    pub entry: usize,
+    /// What is wrong there.
+    pub kind: ListFaultKind,
+}
+
+/// Rules that control entries keep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ListFaultKind {
+    /// A jump leaves its list or group, ends inside another, or among what a clip lets through.
+    #[error("a jump to where none may end")]
+    Jump,
+    /// An `Open` without end, or an end without `Open`.
+    #[error("a group without beginning or end")]
+    Bracket,
+    /// A mask that is not isolated, or what follows it is no group, or it passes over something
+    /// else than that.
+    #[error("a mask without its group")]
+    Mask,
+    /// A group that is not isolated and blends other than normally.
+    #[error("a blend mode of a group that is not isolated")]
+    Blend,
+    /// More than [`MAX_FRAMES`] groups and clips in one another.
+    #[error("groups and clips too deep in one another")]
+    Frames,
+}
+
+/// Where the jump of the `Test` or `Mask` at `at` ends.
+pub const fn jump_target(at: usize, entry: &Entry) -> usize {
+    at + 1 + entry.index as usize
+}
+
+/// The blocks of a list, front to back; `entries` are all of it.
+///
+/// # Errors
+/// [`ListFault`] with the first rule that is broken, [`ListFaultKind::Frames`] only where that is
+/// far beyond the bound: [`list_frames`] tells exactly.
+pub fn list_blocks(entries: &[Entry]) -> Result<Vec<Block>, ListFault> {
+    let parser = Parser {
+        entries,
+        ends: bracket_ends(entries)?,
+    };
+    parser.blocks(0..entries.len(), 0)
+}
+
+/// How many frames an evaluator needs for a list: one for each group and clip in one another, and
+/// inside a clip's tests one for each place where a jump over it may still end. At most
+/// [`MAX_FRAMES`]; 0 without control entries.
+///
+/// # Errors
+/// [`ListFault`] with the first rule that is broken.
+pub fn list_frames(entries: &[Entry]) -> Result<u32, ListFault> {
+    if entries.iter().all(|entry| entry.kind.draws()) {
+        return Ok(0);
+    }
+    let frames = frames_of(&list_blocks(entries)?, entries);
+    if frames > MAX_FRAMES {
+        return Err(fault(0, ListFaultKind::Frames));
+    }
+    Ok(frames)
+}
+
+const fn fault(entry: usize, kind: ListFaultKind) -> ListFault {
+    ListFault { entry, kind }
+}
+
+fn frames_of(blocks: &[Block], entries: &[Entry]) -> u32 {
+    let of = |block: &Block| match block {
+        Block::Draw(_) => 0,
+        Block::Clip { tests, body } => {
+            waiting_jumps(tests.clone(), entries).max(1 + frames_of(body, entries))
+        }
+        Block::Group { masks, body, .. } => {
+            let masks = masks.iter().map(|mask| &mask.body);
+            let inner = masks.chain([body]).map(|body| frames_of(body, entries));
+            1 + inner.max().unwrap_or(0)
+        }
+    };
+    blocks.iter().map(of).max().unwrap_or(0)
+}
+
+/// The most places at which jumps over one of `tests` end.
+fn waiting_jumps(tests: Range<usize>, entries: &[Entry]) -> u32 {
+    let mut waiting: Vec<usize> = Vec::new();
+    let mut most = 0;
+    for at in tests {
+        waiting.retain(|&target| target > at);
+        let target = jump_target(at, &entries[at]);
+        if !waiting.contains(&target) {
+            waiting.push(target);
+        }
+        most = most.max(waiting.len());
+    }
+    u32::try_from(most).unwrap_or(u32::MAX)
+}
+
+/// For each `Open` where its group ends, 0 for other entries.
+fn bracket_ends(entries: &[Entry]) -> Result<Vec<usize>, ListFault> {
+    let mut ends = vec![0; entries.len()];
+    let mut open = Vec::new();
+    for (at, entry) in entries.iter().enumerate() {
+        match entry.kind {
+            EntryKind::Open => open.push(at),
+            EntryKind::Close | EntryKind::Mask => {
+                let begin = open.pop().ok_or(fault(at, ListFaultKind::Bracket))?;
+                ends[begin] = at;
+            }
+            _ => {}
+        }
+        if open.len() > MAX_FRAMES as usize {
+            return Err(fault(at, ListFaultKind::Frames));
+        }
+    }
+    match open.pop() {
+        Some(at) => Err(fault(at, ListFaultKind::Bracket)),
+        None => Ok(ends),
+    }
+}
+
+struct Parser<'a> {
+    entries: &'a [Entry],
+    /// As of [`bracket_ends`].
+    ends: Vec<usize>,
+}
+
+impl Parser<'_> {
+    fn blocks(&self, range: Range<usize>, depth: u32) -> Result<Vec<Block>, ListFault> {
+        if depth > MAX_DEPTH {
+            return Err(fault(range.start, ListFaultKind::Frames));
+        }
+        let mut blocks = Vec::new();
+        let mut at = range.start;
+        while at < range.end {
+            let (block, next) = match self.entries[at].kind {
+                EntryKind::Test => self.clip(at, range.end, depth)?,
+                EntryKind::Open => self.group(at, range.end, depth)?,
+                // Its group begins outside the range: a jump cuts it.
+                EntryKind::Close | EntryKind::Mask => return Err(fault(at, ListFaultKind::Jump)),
+                _ => (Block::Draw(at), at + 1),
+            };
+            blocks.push(block);
+            at = next;
+        }
+        Ok(blocks)
+    }
+
+    /// The clip whose first test is at `start`, and what follows it.
+    fn clip(&self, start: usize, end: usize, depth: u32) -> Result<(Block, usize), ListFault> {
+        let (close, tests_end) = self.clip_range(start, end)?;
+        let mut body = self.blocks(tests_end..close, depth + 1)?;
+        let mut tests = start..tests_end;
+        // What one clip alone guards within another is guarded by both.
+        if let [Block::Clip { tests: inner, .. }] = body.as_slice() {
+            tests.end = inner.end;
+            let Some(Block::Clip { body: inner, .. }) = body.pop() else {
+                return Err(fault(start, ListFaultKind::Jump));
+            };
+            body = inner;
+        }
+        Ok((Block::Clip { tests, body }, close))
+    }
+
+    /// Where the clip from `start` on ends, and its tests.
+    fn clip_range(&self, start: usize, end: usize) -> Result<(usize, usize), ListFault> {
+        let target = |at: usize| jump_target(at, &self.entries[at]);
+        let jump = |at| fault(at, ListFaultKind::Jump);
+        let (mut close, mut tests_end) = (target(start), start + 1);
+        let mut at = start + 1;
+        while at < close.min(end) {
+            match self.entries[at].kind {
+                EntryKind::Test if target(at) > close => {
+                    // What jumps to the end so far jumps among the tests.
+                    tests_end = tests_end.max(close).max(at + 1);
+                    close = target(at);
+                }
+                EntryKind::Open => at = self.ends[at],
+                EntryKind::Close | EntryKind::Mask => return Err(jump(start)),
+                _ => {}
+            }
+            at += 1;
+        }
+        if close > end || at != close {
+            return Err(jump(start));
+        }
+        let mut at = start;
+        while at < tests_end {
+            if self.entries[at].kind != EntryKind::Test {
+                return Err(jump(at));
+            }
+            if target(at) < close {
+                tests_end = tests_end.max(target(at));
+            }
+            at += 1;
+        }
+        let more = self.entries[tests_end..close].iter().zip(tests_end..);
+        let guards =
+            more.take_while(|&(entry, at)| entry.kind == EntryKind::Test && target(at) == close);
+        tests_end += guards.count();
+        if tests_end >= close {
+            return Err(jump(start));
+        }
+        Ok((close, tests_end))
+    }
+
+    /// The group whose first `Open` is at `start`, and what follows it.
+    fn group(&self, start: usize, end: usize, depth: u32) -> Result<(Block, usize), ListFault> {
+        let mut masks = Vec::new();
+        let mut open = start;
+        loop {
+            let close = self.ends[open];
+            if close >= end {
+                return Err(fault(open, ListFaultKind::Jump));
+            }
+            let body = self.blocks(open + 1..close, depth + 1)?;
+            let isolated = self.entries[open].data == OPEN_ISOLATED;
+            let last = self.entries[close];
+            if last.kind == EntryKind::Close {
+                if last.index != BlendMode::Normal as u32 && !isolated {
+                    return Err(fault(close, ListFaultKind::Blend));
+                }
+                self.mask_targets(&masks, close + 1)?;
+                let group = Block::Group {
+                    masks,
+                    open,
+                    body,
+                    close,
+                };
+                return Ok((group, close + 1));
+            }
+            let next = self.entries.get(close + 1);
+            let followed = next.is_some_and(|next| next.kind == EntryKind::Open);
+            if !isolated || !followed || close + 1 >= end {
+                return Err(fault(close, ListFaultKind::Mask));
+            }
+            masks.push(MaskBlock { open, body, close });
+            open = close + 1;
+        }
+    }
+
+    /// All masks of a group pass over the same.
+    fn mask_targets(&self, masks: &[MaskBlock], target: usize) -> Result<(), ListFault> {
+        let stray = masks
+            .iter()
+            .find(|mask| jump_target(mask.close, &self.entries[mask.close]) != target);
+        match stray {
+            Some(mask) => Err(fault(mask.close, ListFaultKind::Mask)),
+            None => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,82 @@
+//! A whole file as a value.
+
+use bytemuck::Zeroable as _;
+
+use super::spec::{SHADER_ABI, SpecKey};
+use crate::curves::source::CurveSources;
+use crate::records::image::Image;
+use crate::records::layer::LayerRecord;
+use crate::records::meta::Meta;
+use crate::records::paint::PaintRecord;
+use crate::records::prov::Provenance;
+use crate::records::shader::ShaderBlob;
+use crate::records::shape::ShapeRecord;
+
+/// One vector texture, read and checked or about to be written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VtexFile {
+    /// Canvas, grid and sampler settings.
+    pub meta: Meta,
+    /// Key of the specialised shader.
+    pub spec: SpecKey,
+    /// The specialised shader.
+    pub shader: ShaderBlob,
+    /// Paints, deduplicated.
+    pub paints: Vec<PaintRecord>,
+    /// The numbers of gradients, paint by paint: [`crate::Gradient`].
+    pub gradients: Vec<f32>,
+    /// Shapes in painter's order.
+    pub shapes: Vec<ShapeRecord>,
+    /// Layers, back to front.
+    pub layers: Vec<LayerRecord>,
+    /// One word a cell, row by row from the top: [`crate::CellWord`].
+    pub cells: Vec<u32>,
+    /// The cells' lists: [`crate::Entry`].
+    pub entries: Vec<u32>,
+    /// Curve records one after the other: [`crate::CurveHeader`].
+    pub curves: Vec<u32>,
+    /// What `curves` is made from; a file then holds it instead of them, which takes a fraction of
+    /// the bytes.
+    pub sources: Option<CurveSources>,
+    /// MSDF tiles, layer by layer: [`LayerRecord`].
+    pub tiles: Vec<u8>,
+    /// Raster images; with [`crate::Features::MIPS`] the first is the canvas itself.
+    pub images: Vec<Image>,
+    /// How it was baked; `None` when the section was left out.
+    pub provenance: Option<Provenance>,
+}
+
+impl VtexFile {
+    /// A file whose cells are all empty, and without anything else: what others are made from, as
+    /// in `VtexFile { paints, cells, ..VtexFile::blank(meta) }`.
+    ///
+    /// The key is that of the blank file and the shader has no text; [`SpecKey::for_file`] makes
+    /// the key of what the file becomes.
+    pub fn blank(meta: Meta) -> Self {
+        let [columns, rows] = meta.grid.size_cells.map(|side| side as usize);
+        // An empty cell's word is zero.
+        let cells = vec![0; columns.saturating_mul(rows)];
+        let mut file = Self {
+            meta,
+            spec: SpecKey::zeroed(),
+            shader: ShaderBlob {
+                abi: SHADER_ABI,
+                wgsl_fragment: String::new(),
+                batch_spirv: Vec::new(),
+            },
+            paints: Vec::new(),
+            gradients: Vec::new(),
+            shapes: Vec::new(),
+            layers: Vec::new(),
+            cells,
+            entries: Vec::new(),
+            curves: Vec::new(),
+            sources: None,
+            tiles: Vec::new(),
+            images: Vec::new(),
+            provenance: None,
+        };
+        file.spec = SpecKey::for_file(&file);
+        file
+    }
+}

@@ -1,0 +1,53 @@
+//! What a shape is coloured with.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::gradient::FLAG_OPAQUE;
+
+/// [`PaintRecord::kind`] of a single colour.
+pub const PAINT_SOLID: u32 = 0;
+/// [`PaintRecord::kind`] of a [`crate::Gradient`] along a line.
+pub const PAINT_LINEAR: u32 = 1;
+/// [`PaintRecord::kind`] of a [`crate::Gradient`] between circles.
+pub const PAINT_RADIAL: u32 = 2;
+
+/// One paint, 32 bytes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct PaintRecord {
+    /// [`PAINT_SOLID`], [`PAINT_LINEAR`] or [`PAINT_RADIAL`].
+    pub kind: u32,
+    /// Zero for a solid paint; of a gradient the [`crate::Spread`] in bits 1..0, and bit 2 where it
+    /// is opaque everywhere.
+    pub flags: u32,
+    /// First number in [`crate::VtexFile::gradients`]; zero for a solid paint.
+    pub data_first: u32,
+    /// How many numbers; zero for a solid paint.
+    pub data_count: u32,
+    /// Straight alpha, sRGB-encoded, each in \[0, 1\]; zeros for a gradient.
+    pub color: [f32; 4],
+}
+
+impl PaintRecord {
+    /// A single colour: straight alpha, sRGB-encoded.
+    pub fn solid(color: [f32; 4]) -> Self {
+        Self {
+            kind: PAINT_SOLID,
+            color,
+            ..Self::zeroed()
+        }
+    }
+
+    /// Whether it is a gradient.
+    pub fn is_gradient(&self) -> bool {
+        matches!(self.kind, PAINT_LINEAR | PAINT_RADIAL)
+    }
+
+    /// Whether nothing behind the paint shows, anywhere.
+    pub fn is_opaque(&self) -> bool {
+        match self.kind {
+            PAINT_SOLID => self.color[3] >= 1.0,
+            _ => self.flags & FLAG_OPAQUE != 0,
+        }
+    }
+}

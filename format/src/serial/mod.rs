@@ -1,0 +1,20 @@
+//! A value to the bytes of a file and back.
+
+#[cfg(any(feature = "encode", feature = "decode"))]
+mod codec;
+#[cfg(feature = "decode")]
+mod frame;
+#[cfg(any(feature = "encode", feature = "decode"))]
+mod levels;
+#[cfg(any(feature = "encode", feature = "decode"))]
+mod offsets;
+#[cfg(feature = "encode")]
+mod pack;
+#[cfg(any(feature = "encode", feature = "decode"))]
+mod planes;
+#[cfg(feature = "decode")]
+pub(crate) mod read;
+#[cfg(feature = "decode")]
+mod unpack;
+#[cfg(feature = "encode")]
+pub(crate) mod write;

@@ -1,0 +1,347 @@
+//! Bytes to value: sections are unpacked in file order, each once its length is known to be what
+//! the ones before it imply.
+
+use bytemuck::Pod;
+
+use super::levels::level_order;
+use super::unpack::{Refusal, allocate, unpack};
+use super::{codec, offsets, planes};
+use crate::check::{self, images::image_records};
+use crate::container::directory::{entry_offset, read_directory, slice};
+use crate::container::error::ReadError;
+use crate::container::issue::{self, Issue, Issues};
+use crate::container::layout::{TILE_PLANES, entry, tile_texels};
+use crate::container::limits::Limits;
+use crate::container::section::SectionInfo;
+use crate::container::tag::Tag;
+use crate::container::words::words_from_little_endian;
+use crate::curves::source::{CurveSources, SourceError, stream};
+use crate::file::spec::SpecKey;
+use crate::file::texture::VtexFile;
+use crate::records::image::{Image, ImageRecord};
+use crate::records::layer::LayerRecord;
+use crate::records::meta::Meta;
+use crate::records::prov::Provenance;
+use crate::records::shader::ShaderBlob;
+
+impl VtexFile {
+    /// Reads and checks a whole file: what this returns is safe to evaluate.
+    ///
+    /// # Errors
+    /// The first issue, by who is at fault; [`validate`] finds the others.
+    pub fn parse(bytes: &[u8], limits: &Limits) -> Result<Self, ReadError> {
+        let mut issues = Issues::default();
+        let file = read(bytes, limits, &mut issues);
+        Ok(issues.accept(file)?)
+    }
+}
+
+/// Everything wrong with a file, up to 256 issues. Header and table come first; with those broken
+/// nothing else can be found, and the content is only looked at when every section unpacks.
+pub fn validate(bytes: &[u8], limits: &Limits) -> Vec<Issue> {
+    let mut issues = Issues::default();
+    read(bytes, limits, &mut issues);
+    issues.into_vec()
+}
+
+fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> {
+    let directory = read_directory(bytes, limits, issues)?;
+    let mut loader = Loader {
+        bytes,
+        sections: &directory.sections,
+        issues,
+    };
+    // Lengths of the rest hang on these settings.
+    let meta = loader.meta()?;
+    let spec = loader.spec();
+    let shader = loader.shader();
+    let provenance = loader.provenance();
+    let paints = loader.records(Tag::PANT);
+    let gradients = loader.records(Tag::GRAD);
+    let shapes = loader.records(Tag::SHAP);
+    let layers = loader.records(Tag::LAYR);
+    let images = loader.records(Tag::IMAG);
+    let cells = loader.cells(&meta);
+    let entries = loader.records(Tag::ENTR);
+    let curves = loader.curves(&meta, limits);
+    let tiles = layers
+        .as_deref()
+        .and_then(|layers| loader.tiles(&meta, layers));
+    let images = images.as_deref().and_then(|records| loader.images(records));
+    let (curves, sources) = curves?;
+    let (mut cells, mut entries) = (cells?, entries?);
+    offsets::entries_from_stored(&mut entries, &curves);
+    offsets::cells_from_stored(&mut cells, &entries);
+    let file = VtexFile {
+        meta,
+        spec: spec?,
+        shader: shader?,
+        paints: paints?,
+        gradients: gradients?,
+        shapes: shapes?,
+        layers: layers?,
+        cells,
+        entries,
+        curves,
+        sources,
+        tiles: tiles?,
+        images: images?,
+        provenance: provenance?,
+    };
+    check::content(&file, issues);
+    Some(file)
+}
+
+/// Unpacks sections. Every method notes why it returns `None`.
+struct Loader<'a> {
+    bytes: &'a [u8],
+    sections: &'a [SectionInfo],
+    issues: &'a mut Issues,
+}
+
+impl Loader<'_> {
+    /// All sections of a tag with their places in the table.
+    fn all(&self, tag: Tag) -> Vec<(usize, SectionInfo)> {
+        let sections = self.sections.iter().copied().enumerate();
+        sections.filter(|(_, section)| section.tag == tag).collect()
+    }
+
+    /// A section unpacked into memory of its raw length.
+    fn unpack(&mut self, index: usize, raw: &mut [u8]) -> Option<()> {
+        let section = &self.sections[index];
+        let start = section.offset_bytes;
+        let stored = slice(self.bytes, start, start + section.stored_bytes);
+        let result = unpack(section, stored, raw);
+        self.accept(index, result)
+    }
+
+    fn accept<T>(&mut self, index: usize, result: Result<T, Refusal>) -> Option<T> {
+        let note = |(kind, message): Refusal| {
+            let message = format_args!("{}: {message}", self.sections[index].tag);
+            self.issues
+                .add(kind, Tag::SECT, entry_offset(index), message);
+        };
+        result.map_err(note).ok()
+    }
+
+    /// The elements of a section as they are stored.
+    fn load<T: Pod>(&mut self, index: usize) -> Option<Vec<T>> {
+        let memory = allocate(self.sections[index].raw_bytes);
+        let mut elements: Vec<T> = self.accept(index, memory)?;
+        self.unpack(index, bytemuck::cast_slice_mut(&mut elements))?;
+        Some(elements)
+    }
+
+    /// The raw bytes of a section that occurs once; empty when it is absent.
+    fn raw(&mut self, tag: Tag) -> Option<Vec<u8>> {
+        match self.all(tag).first() {
+            Some(&(index, _)) => self.load(index),
+            None => Some(Vec::new()),
+        }
+    }
+
+    /// The records of a section that occurs once; empty when it is absent.
+    fn records<T: Pod>(&mut self, tag: Tag) -> Option<Vec<T>> {
+        let Some(&(index, _)) = self.all(tag).first() else {
+            return Some(Vec::new());
+        };
+        let mut records = self.load(index)?;
+        words_from_little_endian(&mut records);
+        Some(records)
+    }
+
+    /// Notes a raw length that is not what earlier sections imply, before memory is asked for.
+    fn expect_bytes(&mut self, index: usize, kind: issue::IssueKind, expected: u64) -> Option<()> {
+        let section = &self.sections[index];
+        if section.raw_bytes == expected {
+            return Some(());
+        }
+        let offset = entry_offset(index) + entry::RAW_BYTES as u64;
+        let message = format_args!(
+            "{}: {} bytes, not {expected}",
+            section.tag, section.raw_bytes
+        );
+        self.issues.add(kind, Tag::SECT, offset, message);
+        None
+    }
+
+    fn meta(&mut self) -> Option<Meta> {
+        let raw = self.raw(Tag::META)?;
+        let meta = match codec::decode(&raw) {
+            Ok(meta) => meta,
+            Err(message) => {
+                self.issues
+                    .add(issue::BINCODE, Tag::META, 0, format_args!("{message}"));
+                return None;
+            }
+        };
+        check::meta(&meta, self.issues).then_some(meta)
+    }
+
+    fn provenance(&mut self) -> Option<Option<Provenance>> {
+        let raw = self.raw(Tag::PROV)?;
+        if raw.is_empty() {
+            return Some(None);
+        }
+        match codec::decode(&raw) {
+            Ok(provenance) => Some(Some(provenance)),
+            Err(message) => {
+                self.issues
+                    .add(issue::BINCODE, Tag::PROV, 0, format_args!("{message}"));
+                None
+            }
+        }
+    }
+
+    fn spec(&mut self) -> Option<SpecKey> {
+        let &(index, _) = self.all(Tag::SPEC).first()?;
+        self.expect_bytes(index, issue::SPEC_LENGTH, size_of::<SpecKey>() as u64)?;
+        self.records(Tag::SPEC)?.pop()
+    }
+
+    fn shader(&mut self) -> Option<ShaderBlob> {
+        let raw = self.raw(Tag::SHDR)?;
+        ShaderBlob::decode(&raw, self.issues)
+    }
+
+    fn cells(&mut self, meta: &Meta) -> Option<Vec<u32>> {
+        let &(index, _) = self.all(Tag::CELL).first()?;
+        let [columns, rows] = meta.grid.size_cells.map(u64::from);
+        self.expect_bytes(index, issue::CELL_COUNT, 4 * columns * rows)?;
+        self.records(Tag::CELL)
+    }
+
+    /// The curve records, stored or cut from outlines.
+    fn curves(&mut self, meta: &Meta, limits: &Limits) -> Option<(Vec<u32>, Option<CurveSources>)> {
+        let Some(&(index, _)) = self.all(Tag::OUTL).first() else {
+            return Some((self.records(Tag::CURV)?, None));
+        };
+        if !self.all(Tag::CURV).is_empty() {
+            let refusal = (issue::OUTLINE_TWICE, "beside CURV".to_owned());
+            return self.accept(index, Err(refusal));
+        }
+        let raw: Vec<u8> = self.load(index)?;
+        let known = self.sections.iter().filter(|s| s.tag.kind().is_some());
+        let spent: u64 = known.map(|section| section.raw_bytes).sum();
+        let budget = limits.total_raw_bytes.saturating_sub(spent);
+        let (words, sources) = self.accept(index, cut_records(&raw, meta, budget))?;
+        Some((words, Some(sources)))
+    }
+
+    /// The tiles of all layers, from sections whose layer ranges follow each other.
+    fn tiles(&mut self, meta: &Meta, layers: &[LayerRecord]) -> Option<Vec<u8>> {
+        let parts = self.all(Tag::TILE);
+        let tile_bytes = TILE_PLANES as u64 * tile_texels(meta.grid.texels_per_cell);
+        let count_bytes = |layers: &[LayerRecord]| {
+            let tiles: u64 = layers.iter().map(|layer| u64::from(layer.tile_count)).sum();
+            tile_bytes.saturating_mul(tiles)
+        };
+        let mut rest = layers;
+        for &(index, section) in &parts {
+            let begins = (layers.len() - rest.len()) as u64;
+            let taken = rest.split_at_checked(section.layer_count as usize);
+            let Some((part, behind)) = taken.filter(|_| u64::from(section.layer_first) == begins)
+            else {
+                let offset = entry_offset(index) + entry::LAYER_FIRST as u64;
+                let message = format_args!("should begin at layer {begins} of {}", layers.len());
+                self.issues
+                    .add(issue::TILE_PARTS, Tag::SECT, offset, message);
+                return None;
+            };
+            self.expect_bytes(index, issue::TILE_BYTES, count_bytes(part))?;
+            rest = behind;
+        }
+        if count_bytes(rest) != 0 || (!parts.is_empty() && !rest.is_empty()) {
+            let message = format_args!("the last {} layers have no TILE", rest.len());
+            self.issues.add(issue::TILE_PARTS, Tag::SECT, 0, message);
+            return None;
+        }
+        self.texels(&parts)
+    }
+
+    /// The texels of several tile sections in one piece of memory.
+    fn texels(&mut self, parts: &[(usize, SectionInfo)]) -> Option<Vec<u8>> {
+        let Some(&(first, _)) = parts.first() else {
+            return Some(Vec::new());
+        };
+        // The lengths are known to be what the layers imply, so they divide.
+        let texel_bytes = |section: &SectionInfo| section.raw_bytes / TILE_PLANES as u64 * 4;
+        let total = parts.iter().map(|(_, section)| texel_bytes(section)).sum();
+        let memory = allocate(total);
+        let mut all: Vec<u8> = self.accept(first, memory)?;
+        let mut rest = all.as_mut_slice();
+        for (index, section) in parts {
+            let stored: Vec<u8> = self.load(*index)?;
+            let length = usize::try_from(texel_bytes(section)).ok()?;
+            let (texels, behind) = rest.split_at_mut(length);
+            planes::texels_from_planes(&stored, texels);
+            rest = behind;
+        }
+        Some(all)
+    }
+
+    /// Images with their levels, which are stored smallest first: coarse levels of all images
+    /// before finer ones, by image within a level.
+    fn images(&mut self, records: &[ImageRecord]) -> Option<Vec<Image>> {
+        if !image_records(records, self.issues) {
+            return None;
+        }
+        let parts = self.all(Tag::MIPS);
+        let order = level_order(records.iter().map(|record| record.level_count));
+        if parts.len() as u64
+            != records
+                .iter()
+                .map(|record| u64::from(record.level_count))
+                .sum()
+        {
+            let message = format_args!("{} levels of {} images", parts.len(), records.len());
+            self.issues.add(issue::MIP_PARTS, Tag::SECT, 0, message);
+            return None;
+        }
+        let mut images: Vec<Image> = records.iter().map(ImageRecord::without_levels).collect();
+        for ((index, section), (level, image)) in parts.into_iter().zip(order) {
+            if (section.mip, section.group as usize) != (level, image) {
+                let offset = entry_offset(index) + entry::GROUP as u64;
+                let message = format_args!("should be level {level} of image {image}");
+                self.issues
+                    .add(issue::MIP_PARTS, Tag::SECT, offset, message);
+                return None;
+            }
+            let expected = Image::level_bytes(records[image].size, level);
+            self.expect_bytes(index, issue::MIP_BYTES, expected)?;
+            images[image].mips.push(self.load(index)?);
+        }
+        for image in &mut images {
+            image.mips.reverse();
+        }
+        Some(images)
+    }
+}
+
+/// The records that the bytes of `OUTL` make, in at most `budget` bytes of memory.
+fn cut_records(raw: &[u8], meta: &Meta, budget: u64) -> Result<(Vec<u32>, CurveSources), Refusal> {
+    let refuse = |error: SourceError| {
+        let kind = match error {
+            SourceError::Work => issue::OUTLINE_BUDGET,
+            _ => issue::OUTLINES,
+        };
+        (kind, error.to_string())
+    };
+    let no_lattice = || (issue::CURVE_LATTICE_USE, "no lattice".to_owned());
+    let lattice = meta.curve_lattice.ok_or_else(no_lattice)?;
+    let head = stream::decode_head(raw).map_err(refuse)?;
+    let needed = head.memory_bytes();
+    if needed > budget {
+        let message = format!("{needed} bytes, {budget} are left of total_raw_bytes");
+        return Err((issue::OUTLINE_BUDGET, message));
+    }
+    let sources = stream::decode(raw).map_err(refuse)?;
+    let words = sources
+        .records_within(&meta.grid, lattice, u64::from(head.words))
+        .map_err(refuse)?;
+    if !head.vouches_for(&words) {
+        let message = "the records are not those that the writer had".to_owned();
+        return Err((issue::OUTLINE_RECORDS, message));
+    }
+    Ok((words, sources))
+}

@@ -1,0 +1,13 @@
+//! What every other file asks of a wgpu device: buffers, calls whose errors come back as values,
+//! and waiting for what a device answers later.
+
+mod buffer;
+mod reply;
+mod scope;
+
+pub(crate) use buffer::{empty_buffer, filled_buffer, read_back};
+#[cfg(all(feature = "blocking", not(target_arch = "wasm32")))]
+pub(crate) use reply::block_on;
+#[cfg(feature = "tracer")]
+pub(crate) use reply::submitted_work;
+pub(crate) use scope::{checked, compiled};

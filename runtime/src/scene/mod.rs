@@ -1,0 +1,223 @@
+//! What is in the picture.
+//!
+//! Points, vectors and matrices are plain arrays, so that a program may use any version of any
+//! linear algebra crate.
+
+mod camera;
+mod mesh;
+mod plane;
+
+use glam::Vec3;
+use vtex_format::VtexFile;
+
+pub use camera::Camera;
+pub use mesh::{MAX_TRIANGLES, Mesh};
+pub use plane::{canvas_aspect, plane, plane_camera};
+
+use crate::{LoadOptions, RuntimeError};
+
+/// Most area lights of a scene: they lie in one uniform block.
+pub const MAX_LIGHTS: usize = 16;
+
+/// Meshes, how they look, what lights them and who looks at them. World space is right-handed,
+/// y up, in whatever unit the caller likes; radiance is linear, Rec. 709 primaries.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Meshes in object space.
+    pub meshes: Vec<Mesh>,
+    /// Meshes placed in the world.
+    pub instances: Vec<Instance>,
+    /// Materials that instances name.
+    pub materials: Vec<Material>,
+    /// Vector textures that materials name, each with how it is looked up.
+    pub textures: Vec<(VtexFile, LoadOptions)>,
+    /// Light from everywhere else.
+    pub sky: Sky,
+    /// Area lights, at most [`MAX_LIGHTS`].
+    pub lights: Vec<RectLight>,
+    /// The viewer.
+    pub camera: Camera,
+}
+
+/// One mesh placed in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instance {
+    /// Index into [`Scene::meshes`].
+    pub mesh: usize,
+    /// Index into [`Scene::materials`].
+    pub material: usize,
+    /// Object space to world space, column by column: where the unit vectors along x, y and z go,
+    /// then where the origin goes. As `glam::Affine3A::to_cols_array_2d` gives it; a column-major
+    /// 4 x 4 matrix such as glTF's without its last row.
+    pub world_from_object: [[f32; 3]; 4],
+}
+
+/// How a surface looks. Both sides look alike.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Reflectance in \[0, 1\], linear; multiplies the texture.
+    pub base_color: [f32; 3],
+    /// Index into [`Scene::textures`].
+    pub texture: Option<usize>,
+    /// What lies under the texture's transparent parts: `None` lets that share of the rays go
+    /// straight through, a colour (linear, in \[0, 1\]) makes the surface solid.
+    pub backing: Option<[f32; 3]>,
+    /// How light scatters.
+    pub surface: Surface,
+    /// Radiance of its own, linear. Only [`Scene::lights`] are sampled as lights: a glowing mesh
+    /// is found by scattered rays alone, which is noisy when it is small.
+    pub emission: [f32; 3],
+}
+
+/// How light scatters at a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Surface {
+    /// Lambert.
+    Diffuse,
+    /// glTF's metallic-roughness model: GGX over Lambert.
+    Glossy {
+        /// 0 is a dielectric of index 1.5 over the base colour, 1 a metal of the base colour.
+        metallic: f32,
+        /// Perceptual roughness in \[0, 1\]; GGX's alpha is its square, at least 0.001.
+        roughness: f32,
+    },
+}
+
+/// Radiance by direction: `horizon` at y = 0 blends to `zenith` above and to `ground` below.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sky {
+    /// Straight up.
+    pub zenith: [f32; 3],
+    /// Level.
+    pub horizon: [f32; 3],
+    /// Straight down.
+    pub ground: [f32; 3],
+}
+
+/// A rectangle that shines from its front, the side `edge_u x edge_v` points to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RectLight {
+    /// One corner, world space.
+    pub corner: [f32; 3],
+    /// From the corner along one side.
+    pub edge_u: [f32; 3],
+    /// From the corner along the other side.
+    pub edge_v: [f32; 3],
+    /// Linear radiance.
+    pub radiance: [f32; 3],
+}
+
+impl Instance {
+    /// A [`Instance::world_from_object`] that leaves a mesh where it is.
+    pub const IDENTITY: [[f32; 3]; 4] = [
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [0.0, 0.0, 0.0],
+    ];
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self {
+            base_color: [1.0; 3],
+            texture: None,
+            backing: None,
+            surface: Surface::Diffuse,
+            emission: [0.0; 3],
+        }
+    }
+}
+
+impl Sky {
+    /// The same radiance from everywhere.
+    pub fn uniform(radiance: f32) -> Self {
+        Self {
+            zenith: [radiance; 3],
+            horizon: [radiance; 3],
+            ground: [radiance; 3],
+        }
+    }
+}
+
+impl Scene {
+    /// Checks indices and numbers, so that what follows may rely on them.
+    pub(crate) fn check(&self) -> Result<(), RuntimeError> {
+        self.meshes.iter().try_for_each(Mesh::check)?;
+        let instances_ok = self.instances.iter().all(|instance| {
+            instance.mesh < self.meshes.len()
+                && instance.material < self.materials.len()
+                && finite(instance.world_from_object.as_flattened())
+        });
+        require(
+            instances_ok,
+            "instance: unknown mesh or material, or a matrix that is not finite",
+        )?;
+        let materials_ok = self.materials.iter().all(|material| {
+            let (metallic, roughness) = material.surface.parameters();
+            material.base_color.iter().all(|&c| unit(c))
+                && material.backing.iter().flatten().all(|&c| unit(c))
+                && unit(metallic)
+                && unit(roughness)
+                && material.emission.iter().all(|&c| radiance(c))
+                && material.texture.is_none_or(|t| t < self.textures.len())
+        });
+        require(
+            materials_ok,
+            "material: a number out of its range or an unknown texture",
+        )?;
+        require(self.lights.len() <= MAX_LIGHTS, "more than 16 area lights")?;
+        require(
+            self.lights.iter().all(RectLight::is_valid),
+            "light: no area or bad radiance",
+        )?;
+        let sky = [self.sky.zenith, self.sky.horizon, self.sky.ground];
+        require(
+            sky.iter().flatten().all(|&c| radiance(c)),
+            "sky: bad radiance",
+        )
+    }
+}
+
+impl RectLight {
+    fn is_valid(&self) -> bool {
+        let area = Vec3::from(self.edge_u).cross(self.edge_v.into()).length();
+        finite(&self.corner)
+            && area.is_finite()
+            && area > 0.0
+            && self.radiance.iter().all(|&c| radiance(c))
+    }
+}
+
+impl Surface {
+    /// Metallic and roughness; Lambert has neither.
+    pub(crate) fn parameters(self) -> (f32, f32) {
+        match self {
+            Self::Diffuse => (0.0, 1.0),
+            Self::Glossy {
+                metallic,
+                roughness,
+            } => (metallic, roughness),
+        }
+    }
+}
+
+fn finite(numbers: &[f32]) -> bool {
+    numbers.iter().all(|number| number.is_finite())
+}
+
+fn unit(value: f32) -> bool {
+    (0.0..=1.0).contains(&value)
+}
+
+fn radiance(value: f32) -> bool {
+    value.is_finite() && value >= 0.0
+}
+
+fn require(holds: bool, what: &str) -> Result<(), RuntimeError> {
+    if holds {
+        Ok(())
+    } else {
+        Err(RuntimeError::Parameter(format!("scene: {what}")))
+    }
+}
