@@ -4,6 +4,8 @@
 mod codec;
 #[cfg(feature = "decode")]
 mod frame;
+#[cfg(all(test, feature = "encode"))]
+mod layout_tests;
 #[cfg(any(feature = "encode", feature = "decode"))]
 mod levels;
 #[cfg(any(feature = "encode", feature = "decode"))]
