@@ -8,7 +8,8 @@ use crate::coverage::placed::Placed;
 /// Layers are the ranks that hold shapes.
 #[derive(Debug)]
 pub(crate) struct Layers {
-    /// Index of the layer of each rank; of a rank without shapes, of the layer that comes next.
+    /// Index of each rank's layer. A rank without shapes gets the layer of the next rank; nothing
+    /// uses that number.
     pub(crate) of_rank: Vec<u32>,
     shape_counts: Vec<u32>,
 }

@@ -1,4 +1,4 @@
-//! What each item is to the cells, by its kind of coverage.
+//! What each item is to the cells of the grid, by its kind of coverage.
 
 use kurbo::Affine;
 use rayon::prelude::*;
@@ -11,8 +11,8 @@ use crate::coverage::{
         CurveError,
         lower::LoweredOutline,
         record::encode_record,
-        source::source_outline,
         split::split,
+        stored_outline::stored_outline,
         sweep::{CutParams, cut_to_cells},
     },
     grid::Lattice,
@@ -20,24 +20,26 @@ use crate::coverage::{
     scales::Scales,
 };
 
-/// Segments of one shape in one cell; more would leave no room in the cell's list.
+/// Segments of one shape in one cell. A shape with more would leave no room for others in the cell's
+/// list, which evaluators bound.
 const MAX_CELL_SEGMENTS: usize = vtex_format::MAX_LIST_ITEMS as usize * 3 / 4;
 
-/// An item against the grid.
+/// Where an item shows on the grid.
 #[derive(Debug, Default)]
 pub(crate) struct Cover {
-    /// Where it is listed; without edges for tiles unless it has a distance field.
+    /// The cells that list it. It has edges for tiles only if it is an MSDF.
     pub(crate) cells: ShapeCells,
-    /// Its outline in the cells that list it, cell by cell, if it is curves.
+    /// If it is curves, its outline in each cell that lists it, cell by cell.
     pub(crate) curves: Vec<CellCurves>,
-    /// The whole outline as the file stores it, if it is curves and the lattice holds it.
+    /// If it is curves, the whole outline as the file stores it; `None` where a reader could not cut
+    /// it to the same records.
     pub(crate) source: Option<SourceOutline>,
-    /// Where each listed cell's part of `curves` begins; empty where each has one.
+    /// Index into `curves` of each listed cell's first part; empty when each cell has exactly one.
     firsts: Vec<u32>,
 }
 
 impl Cover {
-    /// Of what covers the whole canvas.
+    /// The cover of what fills the whole canvas.
     pub(crate) fn everywhere(lattice: &Lattice) -> Self {
         let count = u32::try_from(lattice.cell_count()).unwrap_or(u32::MAX);
         let mut cover = Self::default();
@@ -45,7 +47,7 @@ impl Cover {
         cover
     }
 
-    /// Its outline in `cell`: strips that add up to it, most often one. Empty unless it is curves.
+    /// Its outline in `cell`: one part, or strips that add up to it. Empty unless it is curves.
     pub(crate) fn curves_in(&self, cell: u32) -> &[CellCurves] {
         let Ok(index) = self.cells.listed.binary_search(&cell) else {
             return &[];
@@ -60,7 +62,7 @@ impl Cover {
     }
 }
 
-/// Covers every item; an error where a shape cannot be curves.
+/// The cover of every item, or why a shape cannot be curves on this grid.
 pub(crate) fn cover(
     placed: &[Placed],
     lattice: &Lattice,
@@ -110,7 +112,7 @@ impl Cutter {
         let outline = self.units_from_steps * &placed.outline;
         let lowered = LoweredOutline::new(&outline, self.params.flatness_units)?;
         let shape = cut_to_cells(&lowered, &self.params);
-        let source = source_outline(&lowered, placed.rule);
+        let source = stored_outline(&lowered, placed.rule);
         let mut cells = ShapeCells::default();
         for (cell, winding) in shape.covered {
             if placed.rule.fills(winding) {
@@ -119,7 +121,8 @@ impl Cutter {
         }
         let mut curves = Vec::with_capacity(shape.edges.len());
         let mut firsts = Vec::new();
-        // Strips of a cell are not what the reader would cut.
+        // A reader cuts the stored outline to whole cells, never to strips: with a strip the file
+        // must hold the records themselves.
         let mut whole = true;
         let size = f64::from(self.params.lattice.box_units());
         for (cell, cell_curves) in shape.edges {
@@ -132,7 +135,6 @@ impl Cutter {
                     split(cell_curves, placed.rule, size)?
                 }
             };
-            // A list has room for one such shape.
             if segments > MAX_CELL_SEGMENTS {
                 return Err(CurveError::Overflow);
             }

@@ -4,7 +4,7 @@ use vtex_format::MaskKind;
 use vtex_shaders::cpu::color::decode;
 
 use super::blend::blend;
-use crate::drawing::tree::{Clip, Mask, Node, Scope};
+use crate::drawing::tree::{Clip, Group, Mask, Node};
 
 /// The items that a point lies in.
 #[derive(Debug)]
@@ -27,9 +27,9 @@ impl<P: Fn(u32) -> [f64; 4]> Covering<'_, P> {
             rest = others;
             match node.filter(|node| item < node.items()[1]) {
                 Some(Node::Item(_)) => out = over((self.color)(item), out),
-                Some(Node::Scope(scope)) => {
-                    out = self.scope(scope, out);
-                    let inside = rest.partition_point(|&other| other < scope.items[1]);
+                Some(Node::Group(group)) => {
+                    out = self.group(group, out);
+                    let inside = rest.partition_point(|&other| other < group.items[1]);
                     rest = &rest[inside..];
                 }
                 None => {}
@@ -38,17 +38,17 @@ impl<P: Fn(u32) -> [f64; 4]> Covering<'_, P> {
         out
     }
 
-    fn scope(&self, scope: &Scope, ground: [f64; 4]) -> [f64; 4] {
-        if !self.inside(&scope.clips) {
+    fn group(&self, group: &Group, ground: [f64; 4]) -> [f64; 4] {
+        if !self.inside(&group.clips) {
             return ground;
         }
-        let masks = scope.masks.iter().map(|mask| self.weight(mask));
-        let weight = f64::from(scope.opacity) * masks.product::<f64>();
-        if scope.isolated {
-            let picture = self.paint(&scope.children, [0.0; 4]);
-            return blend(scope.blend, picture.map(|c| weight * c), ground);
+        let masks = group.masks.iter().map(|mask| self.weight(mask));
+        let weight = f64::from(group.opacity) * masks.product::<f64>();
+        if group.isolated {
+            let picture = self.paint(&group.children, [0.0; 4]);
+            return blend(group.blend, picture.map(|c| weight * c), ground);
         }
-        let picture = self.paint(&scope.children, ground);
+        let picture = self.paint(&group.children, ground);
         std::array::from_fn(|i| (1.0 - weight) * ground[i] + weight * picture[i])
     }
 

@@ -11,7 +11,8 @@ use vtex_shaders::{SpecParts, shader_blob, spec_key_from_parts};
 use super::{layout::Layout, provenance::provenance};
 use crate::{
     cells::{
-        CellInput, CellLists, packing::Packing, paint_table::PaintTable, sources::stored_curves,
+        CellInput, CellLists, packing::Packing, paint_table::PaintTable,
+        stored_outlines::stored_curves,
     },
     config::BakeConfig,
     coverage::{

@@ -12,10 +12,10 @@
 
 pub(crate) mod lower;
 pub(crate) mod record;
-pub(crate) mod source;
 pub(crate) mod split;
 #[cfg(test)]
 mod split_tests;
+pub(crate) mod stored_outline;
 pub(crate) mod sweep;
 #[cfg(test)]
 mod tests;

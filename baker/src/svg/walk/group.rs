@@ -11,7 +11,7 @@ use super::{
 use crate::{
     drawing::{
         FillRule,
-        tree::{self, Clip, Mask, Scope},
+        tree::{self, Clip, Mask},
     },
     svg::path::affine,
 };
@@ -70,7 +70,7 @@ impl<'a> Walker<'a, '_> {
         let first = self.next_item();
         let mut effects = effects;
         if self.clips_and_masks(group, inner, &mut effects).is_some() {
-            self.scope(first, effects, |walker| walker.children(group, inner));
+            self.add_group(first, effects, |walker| walker.children(group, inner));
         }
     }
 
@@ -84,15 +84,15 @@ impl<'a> Walker<'a, '_> {
             isolated: true,
             ..Effects::default()
         };
-        self.scope(self.next_item(), effects, |walker| {
+        self.add_group(self.next_item(), effects, |walker| {
             walker.raster(node, place, "filter");
         });
     }
 
     /// A node of what `walk` adds; its items begin with `first`, those of the effects among them.
-    pub(super) fn scope(&mut self, first: u32, effects: Effects, walk: impl FnOnce(&mut Self)) {
+    pub(super) fn add_group(&mut self, first: u32, effects: Effects, walk: impl FnOnce(&mut Self)) {
         let children = self.collected(walk);
-        let scope = Scope {
+        let group = tree::Group {
             items: [first, self.next_item()],
             clips: effects.clips,
             masks: effects.masks,
@@ -101,10 +101,10 @@ impl<'a> Walker<'a, '_> {
             isolated: effects.isolated,
             children,
         };
-        if scope.clips.is_empty() && !scope.is_group() {
-            self.nodes.extend(scope.children);
-        } else if !scope.children.is_empty() {
-            self.nodes.push(tree::Node::Scope(Box::new(scope)));
+        if group.clips.is_empty() && !group.is_group() {
+            self.nodes.extend(group.children);
+        } else if !group.children.is_empty() {
+            self.nodes.push(tree::Node::Group(Box::new(group)));
         }
     }
 

@@ -104,7 +104,7 @@ impl<'a> Walker<'a, '_> {
             isolated: true,
             ..Effects::default()
         };
-        self.scope(self.next_item(), effects, |walker| {
+        self.add_group(self.next_item(), effects, |walker| {
             walker.children(tree.root(), inner);
         });
     }

@@ -136,7 +136,7 @@ impl<'a> Walker<'a, '_> {
             isolated: holds_open_blend(pattern.root()),
             ..Effects::default()
         };
-        self.scope(first, effects, |walker| walker.tiles(pattern, tiles, inner));
+        self.add_group(first, effects, |walker| walker.tiles(pattern, tiles, inner));
     }
 
     fn tiles(&mut self, pattern: &'a Pattern, tiles: Tiles, place: Place<'a>) {
@@ -180,7 +180,7 @@ impl<'a> Walker<'a, '_> {
             isolated: holds_open_blend(pattern.root()),
             ..Effects::default()
         };
-        self.scope(first, effects, |walker| {
+        self.add_group(first, effects, |walker| {
             walker.children(pattern.root(), place);
         });
     }

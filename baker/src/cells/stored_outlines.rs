@@ -29,8 +29,8 @@ pub(crate) fn stored_curves(
     (curve_lattice, sources)
 }
 
-/// The sources of `records`, whose outlines are items; `None` where an outline is not to be had,
-/// so that the file holds the records themselves.
+/// The outlines that `records` are cut from, which name items so far; `None` when one of them cannot
+/// be stored, so that the file must hold the records themselves.
 fn sources(
     covers: &[Cover],
     records: &[SourceRecord],
