@@ -1,4 +1,4 @@
-//! Which cells a shape's edge is near, and which lie inside it.
+//! Which cells are near an edge of a shape, and which lie inside it: for MSDFs and clips.
 
 use std::collections::BTreeSet;
 
@@ -14,22 +14,22 @@ use crate::{
     geometry::{Region, clip_line, flatten, line_box_distance, pieces},
 };
 
-/// How far flattening may move an outline when cells are listed, in steps. Below what
-/// [`EDGE_ERROR_TEXELS`] adds to the margin.
+/// How far flattening may move an outline when cells are listed, in steps. Less than
+/// [`EDGE_ERROR_TEXELS`], which the margin is widened by.
 const LISTING_TOLERANCE: f64 = 0.02;
 
-/// A shape against the grid. Cells are indices, row by row.
+/// A shape on the grid. Cells are indices, row by row.
 #[derive(Debug, Default)]
 pub(crate) struct ShapeCells {
-    /// The shape's coloured edges.
+    /// Its coloured edges.
     pub(crate) edges: Vec<Edge>,
-    /// Cell and index of an edge within [`Distances::reach`] of it, sorted.
+    /// Pairs of a cell and the index of an edge within [`Distances::reach`] of it, sorted.
     near: Vec<(u32, u32)>,
     /// Cells with an edge within [`Distances::margin`], ascending.
     pub(crate) listed: Vec<u32>,
-    /// Cells that, widened by the margin, lie inside, ascending.
+    /// Cells that lie inside even when widened by the margin, ascending.
     pub(crate) full: Vec<u32>,
-    /// Inside tests on the lattice.
+    /// Inside tests at the points of the lattice.
     pub(crate) rows: Rows,
 }
 
@@ -92,7 +92,7 @@ pub(crate) fn classify(placed: &Placed, lattice: &Lattice, distances: Distances)
             if listed.peek() == Some(&cell) {
                 continue;
             }
-            // No edge is near, so any point speaks for the cell.
+            // No edge is near, so any one point decides for the whole cell.
             let [x, y] = [column, row].map(|index| index * n + n / 2);
             if cells.rows.contains(&placed.region, x, y) {
                 cells.full.push(cell);
@@ -102,8 +102,10 @@ pub(crate) fn classify(placed: &Placed, lattice: &Lattice, distances: Distances)
     cells
 }
 
-/// Finds the cells near the outline, to the last sliver, and the cells near the edges that
-/// distances are measured to.
+/// Finds the cells near the outline, and those near the coloured edges.
+///
+/// The two differ: colouring drops slivers, which distances cannot resolve, but a cell must list the
+/// shape for them all the same.
 fn bin_edges(cells: &mut ShapeCells, outline: &BezPath, lattice: &Lattice, distances: Distances) {
     let margin = distances.margin + EDGE_ERROR_TEXELS;
     let mut listed = BTreeSet::new();

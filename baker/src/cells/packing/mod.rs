@@ -33,17 +33,16 @@ pub(crate) fn pack_items(
     scales: &Scales,
     merge: bool,
 ) -> Packing {
-    // Shapes of one rank share MSDF tiles and curve records. In a tile no texel may be within the
-    // range of two shapes, because it stores the distance to one. In a record only the ramps must
-    // not overlap: each reaches one margin outwards.
+    // Shapes of one rank share MSDF tiles and curve records. In a tile no texel may lie within half
+    // the range of two shapes, because it stores one distance. In a record only the ramps must not
+    // overlap: each reaches one margin outwards.
     let shapes = || placed.iter().filter(|item| item.is_shape());
     let reach = if shapes().all(Placed::is_curves) {
         2.0 * scales.distances.margin
     } else {
         scales.range
     };
-    // Beyond the canvas items may meet: no lookup goes there. The reach keeps tiles at the border
-    // right too.
+    // Lookups stay on the canvas, but tiles at its border see outlines up to the reach beyond it.
     let window = lattice.canvas.inflate(reach, reach);
     if merge {
         merge_all(placed, window, reach)

@@ -1,7 +1,8 @@
-//! Cells with more of an outline than a record holds: cut into strips, one record each.
+//! Splitting a cell with more segments than a record holds: into horizontal strips, one record each.
 //!
-//! A strip's record is empty above and below it, so the union of the strips is the shape: exactly
-//! so for points. A ramp of some footprint does not see edges of the strip next to its own.
+//! A strip's record is empty above and below the strip, so the union of all strips is the shape. For
+//! point lookups this is exact. The ramp of a lookup with a footprint does not see the edges of other
+//! strips, so coverage is slightly off within a ramp of the border between two strips.
 
 use std::collections::BTreeMap;
 
@@ -11,10 +12,10 @@ use vtex_format::{MAX_CURVE_SEGMENTS, MAX_CURVE_STEPS};
 use super::CurveError;
 use crate::drawing::FillRule;
 
-/// Strips of one shape in one cell. More entries than this cost more than they show: with 2,047
-/// lines each, some would lie within a hundredth of a pixel of each other at any zoom.
+/// Most strips of one shape in one cell. With 2,047 lines in each, a shape that needs more has lines
+/// within a hundredth of a pixel of each other at any zoom: it is better off as an image.
 const MAX_STRIPS: usize = 64;
-/// Largest base winding of a record, either way; a larger one becomes a step at the top.
+/// Largest base winding that a record can hold, either way. A larger one becomes a step at the top.
 const MAX_BASE: i32 = 511;
 
 /// A part of a cell between two heights.
@@ -22,19 +23,20 @@ const MAX_BASE: i32 = 511;
 struct Strip {
     top: f64,
     bottom: f64,
-    /// Winding on the left edge at the top.
+    /// Winding at the top of the left edge.
     winding: i32,
-    /// Changes on the left edge strictly between top and bottom.
+    /// Heights strictly between top and bottom at which the winding of the left edge changes, with the
+    /// change.
     steps: Vec<(f64, i32)>,
-    /// All between top and bottom.
+    /// Segments, all between top and bottom.
     segments: Vec<Segment>,
 }
 
-/// `cell` in as many parts as records need; most often itself. `size` is the side of the cell's box
-/// in units.
+/// The parts of `cell` that fit into a record each: itself, or strips. `size` is the side of the cell's
+/// box in units.
 ///
 /// # Errors
-/// [`CurveError::Overflow`] when no cut of at most [`MAX_STRIPS`] strips helps.
+/// [`CurveError::Overflow`] when [`MAX_STRIPS`] strips are not enough.
 pub(crate) fn split(
     cell: CellCurves,
     rule: FillRule,
@@ -51,6 +53,7 @@ pub(crate) fn split(
             parts.push(strip.into_cell(size));
         } else {
             let [upper, lower] = strip.halves().ok_or(CurveError::Overflow)?;
+            // The upper one is taken first, so parts come out from top to bottom.
             waiting.extend([lower, upper]);
         }
         if parts.len() + waiting.len() > MAX_STRIPS {
@@ -76,7 +79,7 @@ impl Strip {
         }
     }
 
-    /// Whether it makes a record, with a step more at either end.
+    /// Whether it fits into a record, with one more step at either end.
     fn fits(&self) -> bool {
         let quads = self.segments.iter().filter(|s| s.control.is_some()).count();
         let lines = self.segments.len() - quads;
@@ -94,7 +97,7 @@ impl Strip {
         self.winding + self.steps.iter().map(|step| step.1).sum::<i32>()
     }
 
-    /// The same picture with smaller windings.
+    /// The same inside with smaller windings and fewer steps.
     fn reduced(mut self, rule: FillRule) -> Self {
         match rule {
             FillRule::EvenOdd => {
@@ -108,7 +111,7 @@ impl Strip {
             FillRule::NonZero => {
                 let changes: i64 = self.steps.iter().map(|step| i64::from(step.1.abs())).sum();
                 let most = changes + i64::try_from(self.segments.len()).unwrap_or(i64::MAX);
-                // What cannot come to zero anywhere is inside everywhere.
+                // Steps and segments together cannot bring the winding to zero: inside everywhere.
                 if i64::from(self.winding.abs()) > most {
                     self.winding = self.winding.signum();
                     self.steps.clear();
@@ -119,7 +122,8 @@ impl Strip {
         self
     }
 
-    /// Two strips of about as many segments each; `None` when that cannot help.
+    /// Two strips with about as many segments each; `None` when cutting cannot help, because too many
+    /// segments run through from top to bottom or the strip is one unit high.
     fn halves(self) -> Option<[Self; 2]> {
         let through = |s: &&Segment| s.start.y <= self.top && s.end.y >= self.bottom;
         if self.segments.iter().filter(through).count() > MAX_CURVE_SEGMENTS as usize {
@@ -196,7 +200,7 @@ impl Strip {
     }
 }
 
-/// A height of a box, which is an integer of 16 bits.
+/// A height in a box as the record stores it: an integer of 16 bits.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
