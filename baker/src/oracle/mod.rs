@@ -1,6 +1,7 @@
-//! What a lookup must return, from the outlines and nothing else: for this workspace's tests.
+//! The oracle: what a lookup must return, computed slowly in f64 from the outlines alone.
 //!
-//! The Cargo feature `oracle` adds this module. It is no part of what the crate promises.
+//! It is for the tests of this workspace and needs the Cargo feature `oracle`. It may change or
+//! disappear in any release.
 
 mod blend;
 pub(crate) mod gradient;

@@ -1,4 +1,4 @@
-//! What the items at one point come to, group by group.
+//! Compositing the items at one point, group by group.
 
 use vtex_format::MaskKind;
 use vtex_shaders::cpu::color::decode;
@@ -6,18 +6,17 @@ use vtex_shaders::cpu::color::decode;
 use super::blend::blend;
 use crate::drawing::tree::{Clip, Group, Mask, Node};
 
-/// The items that a point lies in.
+/// The items that contain a point.
 #[derive(Debug)]
 pub(super) struct Covering<'a, P> {
     /// Ascending.
     pub(super) items: &'a [u32],
-    /// Colour of an item there, straight alpha, sRGB-encoded.
+    /// Colour of an item there: straight alpha, sRGB-encoded.
     pub(super) color: P,
 }
 
 impl<P: Fn(u32) -> [f64; 4]> Covering<'_, P> {
-    /// `nodes` painted over `ground`: sRGB-encoded, premultiplied, in f64: rounding must not depend
-    /// on how entries were merged.
+    /// The nodes painted over `ground`: sRGB-encoded, premultiplied.
     pub(super) fn paint(&self, nodes: &[Node], ground: [f64; 4]) -> [f64; 4] {
         let mut out = ground;
         let mut rest = self.items;

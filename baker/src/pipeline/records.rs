@@ -1,4 +1,4 @@
-//! The file's records: what the bake decided, as the format stores it.
+//! Filling the file's records from the results of all stages.
 
 use kurbo::{Rect, Shape as _};
 use vtex_format::{
@@ -28,7 +28,7 @@ use crate::{
     raster::canvas,
 };
 
-/// What the stages before have made.
+/// Results of the stages.
 #[derive(Debug)]
 pub(super) struct Stages<'a> {
     /// The drawing and its grid.
@@ -39,13 +39,13 @@ pub(super) struct Stages<'a> {
     pub(super) lists: CellLists,
     /// Texels of the lists' tiles.
     pub(super) tiles: Vec<u8>,
-    /// One a layer.
+    /// One for each layer.
     pub(super) layers: Vec<LayerRecord>,
     /// The paints that lists name.
     pub(super) paints: PaintTable,
 }
 
-/// The file, its mips apart: with `has_mips` image 0 is kept free for them.
+/// The file without mips. With `has_mips` image 0 is a placeholder for them.
 pub(super) fn file(
     mut drawing: Drawing,
     stages: Stages<'_>,
@@ -101,14 +101,14 @@ pub(super) fn file(
     })
 }
 
-/// The shader's key and text.
+/// The spec key and the specialised shader.
 fn specialised(parts: &SpecParts<'_>) -> Result<(SpecKey, ShaderBlob), BakeError> {
     let spec = spec_key_from_parts(parts);
     let shader = shader_blob(&spec).map_err(|error| BakeError::Shader(error.to_string()))?;
     Ok((spec, shader))
 }
 
-/// The file's general record.
+/// The record of the file as a whole.
 fn meta(
     drawing: &Drawing,
     config: &BakeConfig,
@@ -133,7 +133,7 @@ fn meta(
     }
 }
 
-/// One record an item that is painted.
+/// One record for each item that paints.
 fn shape_records(input: &CellInput<'_>, lattice: &Lattice) -> Vec<ShapeRecord> {
     let record = |((item, &rank), &paint_or_image): ((&Placed, &u32), &u32)| {
         let segments = item.outline.segments().count();
@@ -174,7 +174,7 @@ fn bounds_uv(area: Rect, lattice: &Lattice) -> [f32; 4] {
     [u(area.x0), v(area.y0), u(area.x1), v(area.y1)]
 }
 
-/// Warnings of the drawing and of what happened since.
+/// The warnings of the drawing, and those of the stages since.
 fn warnings(
     drawing: &mut Drawing,
     placed: &[Placed],
@@ -228,7 +228,7 @@ fn share(of: Rect, canvas: Rect) -> f32 {
     to_f32(shown.area() / canvas.area()).clamp(0.0, 1.0)
 }
 
-/// A place for the canvas' mips, if there will be any, and the patches.
+/// The file's images: a placeholder for mips, if there will be any, and those of the drawing.
 fn images(drawing: Drawing, mips: bool) -> Vec<Image> {
     let patches = drawing.items.into_iter().filter_map(|item| match item {
         Item::Patch(patch) => Some(patch.image),

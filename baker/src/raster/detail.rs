@@ -1,15 +1,15 @@
-//! How fine a raster has to be: no finer than its own detail.
+//! Halving a raster that is finer than its own detail.
 
 use rayon::prelude::*;
 
 use crate::raster::{mips::LinearImage, texel};
 
-/// Codes of a stored channel by which a coarser raster, interpolated as lookups do, may differ.
+/// Codes by which a stored channel of the coarser raster, interpolated as lookups do, may differ.
 const MAX_ERROR: u8 = 2;
-/// Texels of a side below which nothing is gained.
+/// Texels of a side below which halving gains nothing.
 const MIN_SIDE: u32 = 16;
 
-/// `image`, halved as long as nobody could tell: soft shadows and blurs need few texels.
+/// The image, halved as long as nobody could see it. Soft shadows and blurs need few texels.
 pub(crate) fn fitted(image: LinearImage) -> LinearImage {
     let mut fitted = image;
     while fitted.size.iter().all(|&side| side >= MIN_SIDE) {
@@ -22,7 +22,7 @@ pub(crate) fn fitted(image: LinearImage) -> LinearImage {
     fitted
 }
 
-/// Whether lookups in `coarse` at the texels of `fine` return about those.
+/// Whether lookups in `coarse` return nearly the texels of `fine`.
 fn stands_for(coarse: &LinearImage, fine: &LinearImage) -> bool {
     let rows = fine.texels.par_chunks_exact(fine.size[0] as usize);
     rows.enumerate().all(|(y, row)| {
@@ -35,8 +35,8 @@ fn stands_for(coarse: &LinearImage, fine: &LinearImage) -> bool {
     })
 }
 
-/// The middle of texel `index` among `coarse` texels: the one at or before it, and how far beyond
-/// its middle.
+/// Where the centre of fine texel `index` lies among the coarse ones: between which two, and the share
+/// of the second. At the ends both are the same texel.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

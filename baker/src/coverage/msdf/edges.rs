@@ -68,7 +68,7 @@ pub(crate) fn edges_of(outline: &BezPath) -> Vec<Edge> {
     let mut edges = Vec::new();
     for (index, contour) in (0_u64..).zip(split_contours(&turned)) {
         let segments = collapse(&contour);
-        // Two curved segments can enclose something; one that is left cannot.
+        // The rest of a collapsed contour: fewer than two segments enclose next to nothing.
         if segments.len() < 2 {
             continue;
         }

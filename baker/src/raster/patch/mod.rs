@@ -1,8 +1,11 @@
-//! Raster patches: subtrees of the SVG that are not geometry, and shapes that are too much for
-//! curves.
+//! Patches: raster images of what no shape can be.
+//!
+//! Most are subtrees of the SVG that resvg paints ([`resvg`]), such as filters. A few are shapes that are
+//! too complex for curve records ([`skia`]). Embedded images keep their own texels instead
+//! ([`embedded`]).
 
 mod density;
-mod native;
+mod embedded;
 mod resvg;
 mod skia;
 mod window;
@@ -18,39 +21,38 @@ use crate::{
     warning::Warnings,
 };
 use density::{MAX_PATCH_TEXELS, WANTED_DENSITY};
-use native::Native;
+use embedded::Embedded;
 use window::{Source, Window};
 
 pub(crate) use density::PatchSettings;
 
-/// What a shape is called that is a patch because it is too much for curve records.
+/// Feature of a patch that stands for a shape too complex for curve records.
 pub(crate) const SHAPE_FEATURE: &str = "path";
 
-/// Makes a drawing's items of the plan's steps, subtrees becoming images; the result is in
-/// painter's order.
+/// Turns the steps of a plan into the items of a drawing, in painter's order: subtrees become images.
 pub(crate) fn resolve(
     plan: Plan<'_>,
     settings: PatchSettings,
     warnings: &Warnings,
 ) -> (Vec<Item>, Tree) {
-    let natives = native::choose(&plan.steps);
+    let embedded = embedded::choose(&plan.steps);
     let patched = plan
         .steps
         .iter()
-        .zip(&natives)
+        .zip(&embedded)
         .filter_map(|pair| match pair {
             (Step::Raster(subtree), None) => Some(subtree),
             _ => None,
         });
-    // One density for all: neighbours must not differ in sharpness.
+    // One density for all patches, so that neighbours look equally sharp.
     let density = settings.common_density(patched);
     let painted: Vec<Outcome> = plan
         .steps
         .into_par_iter()
-        .zip(natives)
-        .map(|(step, native)| Outcome::of(step, native, settings, density))
+        .zip(embedded)
+        .map(|(step, image)| Outcome::of(step, image, settings, density))
         .collect();
-    // Warnings are told here and not while painting: in document order at any thread count.
+    // Warnings are collected here and not while painting: their order must not depend on threads.
     let mut items = Vec::with_capacity(painted.len());
     let mut place = Vec::with_capacity(painted.len());
     let mut coarse = false;
@@ -79,33 +81,33 @@ pub(crate) fn resolve(
     (items, plan.tree.renumbered(&place))
 }
 
-/// What becomes of a step.
+/// The result of one step.
 enum Outcome {
-    /// An item without a word: geometry, or an image that keeps its texels.
+    /// An item that needs no warning: geometry or an embedded image.
     Item(Item),
     /// A patch and its density.
     Patch(Patch, f64),
-    /// Nothing of it shows.
+    /// Nothing: all of it is transparent.
     Nothing,
     /// resvg failed on this feature of this element.
     Failed(&'static str, String),
 }
 
 impl Outcome {
-    fn of(step: Step<'_>, native: Option<Native>, settings: PatchSettings, density: f64) -> Self {
+    fn of(step: Step<'_>, image: Option<Embedded>, settings: PatchSettings, density: f64) -> Self {
         let subtree = match step {
             Step::Shape(shape) => return Self::Item(Item::Shape(shape)),
             Step::Clip(clip) => return Self::Item(Item::Clip(clip)),
             Step::Raster(subtree) => subtree,
         };
-        let native = native.and_then(|native| native.patch(&subtree, settings.canvas_size));
-        match native {
+        let image = image.and_then(|image| image.patch(&subtree, settings.canvas_size));
+        match image {
             Some(patch) => Self::Item(Item::Patch(patch)),
             None => Self::painted(&subtree, settings, density),
         }
     }
 
-    /// The subtree as resvg paints it, at `density` or as fine as it can be.
+    /// The subtree painted by resvg, at `density` or at the largest density that its cost allows.
     fn painted(subtree: &Subtree<'_>, settings: PatchSettings, density: f64) -> Self {
         let density = density.min(settings.density_limit(subtree));
         let window = Window::new(subtree.bounds, settings.lattice(density), settings);
@@ -123,7 +125,7 @@ impl Outcome {
     }
 }
 
-/// `None` when there is no memory for the window or resvg panics.
+/// The painted window; `None` when there is no memory for it or resvg panics.
 fn paint_subtree(subtree: &Subtree<'_>, window: &Window) -> Option<Pixmap> {
     let view = window.view();
     let mut pixmap = Pixmap::new(view.size[0], view.size[1])?;
@@ -132,7 +134,7 @@ fn paint_subtree(subtree: &Subtree<'_>, window: &Window) -> Option<Pixmap> {
     Some(pixmap)
 }
 
-/// One shape as a patch, within its `share` of what patches may take; `None` when nothing of it
+/// A shape as a patch, within its `share` of the texels of all patches; `None` when nothing of it
 /// shows.
 pub(crate) fn of_shape(shape: &Shape, settings: PatchSettings, share: f64) -> Option<Patch> {
     let bounds = shape
@@ -149,7 +151,7 @@ pub(crate) fn of_shape(shape: &Shape, settings: PatchSettings, share: f64) -> Op
     window.patch(pixmap, source)
 }
 
-/// The whole canvas as one patch, of which `paint` makes a picture of a size.
+/// The whole canvas as one patch, and a warning if it is coarse. `paint` makes the picture at a size.
 pub(crate) fn whole_canvas(
     settings: PatchSettings,
     paint: impl FnOnce([u32; 2]) -> LinearImage,

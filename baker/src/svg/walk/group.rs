@@ -1,4 +1,4 @@
-//! Groups: what clips, masks, opacity and blending make of their children.
+//! Groups: clips, masks, opacity, blend modes and filters.
 
 use kurbo::Shape as _;
 use usvg::{BlendMode, Group, MaskType, Node};
@@ -16,7 +16,7 @@ use crate::{
     svg::path::affine,
 };
 
-/// What is done to a group as a whole.
+/// What is done to a group as a whole; by default nothing.
 #[derive(Debug)]
 pub(super) struct Effects {
     pub(super) clips: Vec<Clip>,
@@ -39,6 +39,8 @@ impl Default for Effects {
 }
 
 impl<'a> Walker<'a, '_> {
+    /// Adds a group and what is in it. A filter that only changes colours is applied to the colours; any
+    /// other makes the group a subtree for resvg.
     pub(super) fn group(&mut self, node: &'a Node, group: &'a Group, place: Place<'a>) {
         let mut place = place;
         if !group.filters().is_empty() {
@@ -74,7 +76,7 @@ impl<'a> Walker<'a, '_> {
         }
     }
 
-    /// A group that a filter makes pixels of; blending is not the filter's.
+    /// A group that resvg has to paint because of its filter. Its blend mode stays the evaluator's.
     fn filtered(&mut self, node: &'a Node, group: &'a Group, place: Place<'a>) {
         if !blends(group) {
             return self.raster(node, place, "filter");
@@ -89,7 +91,8 @@ impl<'a> Walker<'a, '_> {
         });
     }
 
-    /// A node of what `walk` adds; its items begin with `first`, those of the effects among them.
+    /// Adds a group of the nodes that `walk` adds. `first` is its first item: items of its effects have
+    /// been added before the walk. Without any effect the nodes are added without a group.
     pub(super) fn add_group(&mut self, first: u32, effects: Effects, walk: impl FnOnce(&mut Self)) {
         let children = self.collected(walk);
         let group = tree::Group {
@@ -108,7 +111,7 @@ impl<'a> Walker<'a, '_> {
         }
     }
 
-    /// Clips and masks of a group; `None` where they let nothing show.
+    /// Adds clips and masks of a group to its effects; `None` if they let nothing show.
     fn clips_and_masks(
         &mut self,
         group: &'a Group,
@@ -124,7 +127,7 @@ impl<'a> Walker<'a, '_> {
         Some(())
     }
 
-    /// A mask and the masks on it, of which each fades the group by itself.
+    /// Adds a mask, after the mask on it if there is one: each weights the group independently.
     fn mask(
         &mut self,
         mask: &'a usvg::Mask,
@@ -168,8 +171,8 @@ impl<'a> Walker<'a, '_> {
     }
 }
 
-/// Jumps that wait at once while the clip is tested and its group drawn: one past the group for
-/// each clip that holds another, one past the rest of a union.
+/// How many jumps can be pending at once while the clip is tested and its group drawn: for each clip
+/// that contains another one past the group, and one past the rest of a union.
 fn clip_depth(clip: &usvg::ClipPath) -> u32 {
     let outer = clip.clip_path().map_or(0, clip_depth);
     2 + outer + nested_clip_depth(clip.root())
@@ -183,12 +186,13 @@ fn nested_clip_depth(group: &Group) -> u32 {
     group.children().iter().map(depth).max().unwrap_or(0)
 }
 
-/// Whether a group's blend mode sees what lies behind it.
+/// Whether a group has a blend mode that depends on what lies behind it.
 fn blends(group: &Group) -> bool {
     group.blend_mode() != BlendMode::Normal
 }
 
-/// Whether something in the group blends with what is behind it inside the group.
+/// Whether a group inside has a blend mode whose backdrop is this group's content, and what lies
+/// behind it unless the group is isolated.
 pub(super) fn holds_open_blend(group: &Group) -> bool {
     group.children().iter().any(|node| match node {
         Node::Group(child) => blends(child) || (!child.should_isolate() && holds_open_blend(child)),

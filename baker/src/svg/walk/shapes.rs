@@ -1,4 +1,4 @@
-//! Paths: their fills and strokes as shapes.
+//! Paths: a fill and a stroke each become a shape.
 
 use kurbo::{Affine, BezPath};
 use usvg::{Node, PaintOrder};
@@ -19,7 +19,7 @@ use crate::{
 };
 
 impl<'a> Walker<'a, '_> {
-    /// A path as shapes, or whole for resvg.
+    /// Adds a path as shapes, or as a subtree if no shape can have its paint.
     pub(super) fn path(&mut self, node: &'a Node, path: &'a usvg::Path, place: Place<'a>) {
         if !path.is_visible() {
             return;
@@ -90,7 +90,7 @@ impl<'a> Walker<'a, '_> {
         );
     }
 
-    /// A replacement's own alpha multiplies the opacity of the shape.
+    /// The paint of a shape. The alpha of a replacement multiplies the shape's opacity.
     fn paint(
         &self,
         paint: &usvg::Paint,
@@ -115,6 +115,7 @@ impl<'a> Walker<'a, '_> {
         }
     }
 
+    /// Adds a shape, if any of it shows.
     fn shape(
         &mut self,
         outline: BezPath,
@@ -148,7 +149,7 @@ impl<'a> Walker<'a, '_> {
         }));
     }
 
-    /// The first paint of a visible path that no shape can have.
+    /// The feature of the path's first paint that is neither a colour nor a gradient of few stops.
     pub(super) fn foreign_paint(&self, path: &usvg::Path) -> Option<&'static str> {
         let fill = path.fill().filter(|_| self.options.fill_color.is_none());
         let stroke = path
@@ -158,13 +159,14 @@ impl<'a> Walker<'a, '_> {
             .or_else(|| stroke.and_then(|s| foreign(s.paint())))
     }
 
-    /// What of a path's paints resvg has to draw.
+    /// The feature of a paint for which resvg has to paint the path.
     fn raster_paint(&self, path: &usvg::Path, place: Place<'_>) -> Option<&'static str> {
         self.foreign_paint(path)
             .filter(|&feature| feature != "pattern" || !self.expands_patterns(path, place))
     }
 }
 
+/// The feature of a paint that no shape can have directly. Patterns can often be expanded.
 fn foreign(paint: &usvg::Paint) -> Option<&'static str> {
     match paint {
         usvg::Paint::Color(_) => None,
