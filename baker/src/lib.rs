@@ -31,8 +31,8 @@
 //! Three things remain for the caller:
 //! - A call cannot be cancelled.
 //! - The process ends if the system refuses an allocation.
-//! - The process ends if a stack is too small. SVG may nest 1024 levels deep, which takes a stack of
-//!   64 MiB on each thread of the rayon pool.
+//! - The process ends if a stack is too small. SVG may nest 1024 levels deep, which takes a stack
+//!   of 64 MiB on each thread of the rayon pool.
 //!
 //! Bake untrusted input in a separate process with limits of time and memory, and in a rayon pool
 //! with such stacks. `vtex bake` does both.
@@ -41,8 +41,8 @@
 //!
 //! Data flows through the folders in this order: `svg` reads the text and walks its tree, `drawing`
 //! holds the result, `geometry` prepares outlines, `coverage` decides how each shape covers the
-//! cells of a grid, `cells` builds the list of each cell, `raster` makes patches and mips. `pipeline`
-//! runs these stages; read it first.
+//! cells of a grid, `cells` builds the list of each cell, `raster` makes patches and mips.
+//! `pipeline` runs these stages; read it first.
 //!
 //! [`VtexFile`]: vtex_format::VtexFile
 //! [`Provenance::warnings`]: vtex_format::Provenance::warnings

@@ -47,6 +47,7 @@ pub(super) fn items_by_cell(input: &CellInput<'_>, lattice: &Lattice) -> Vec<Vec
             for &cell in &cover.cells.full {
                 by_cell[cell as usize].push(Present { item, full: true });
             }
+        // An image lists every cell under its box.
         } else if let Some([columns, rows]) = lattice.cells_in(placed.bounds()) {
             for row in rows[0]..=rows[1] {
                 for column in columns[0]..=columns[1] {

@@ -40,6 +40,7 @@ impl Layers {
     /// One record a layer; tiles are those of `lists`.
     pub(crate) fn records(&self, lists: &CellLists) -> Vec<LayerRecord> {
         let first_of = |layer: u32| {
+            // Tiles are sorted by layer, so a layer is a range of them.
             let first = lists.tiles.partition_point(|tile| tile.layer < layer);
             u32::try_from(first).unwrap_or(u32::MAX)
         };

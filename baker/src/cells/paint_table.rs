@@ -43,6 +43,7 @@ impl PaintTable {
     fn intern_gradient(&mut self, gradient: &Gradient) -> u32 {
         let mut own = Vec::new();
         let record = gradient.store(&mut own);
+        // Stored twice: first apart, for its bits, then behind all others if it is new.
         let head = [record.kind, record.flags];
         // Adding zero turns -0 into 0.
         let bits = own.iter().map(|number| (number + 0.0).to_bits());

@@ -77,6 +77,7 @@ pub(crate) fn classify(placed: &Placed, lattice: &Lattice, distances: Distances)
         edges: edges_of(&placed.outline),
         ..ShapeCells::default()
     };
+    // Cells further away than the margin cannot list the shape.
     let widened = placed.bounds().inflate(distances.margin, distances.margin);
     let Some([columns, rows]) = lattice.cells_in(widened) else {
         return ShapeCells::default();
@@ -84,6 +85,7 @@ pub(crate) fn classify(placed: &Placed, lattice: &Lattice, distances: Distances)
     bin_edges(&mut cells, &placed.outline, lattice, distances);
     let n = lattice.grid.texels_per_cell;
     cells.rows = Rows::new(&placed.region, rows[0] * n, (rows[1] + 1) * n);
+    // Both lists of cells are ascending: walk them together.
     let mut listed = cells.listed.iter().copied().peekable();
     for row in rows[0]..=rows[1] {
         for column in columns[0]..=columns[1] {
@@ -104,9 +106,10 @@ pub(crate) fn classify(placed: &Placed, lattice: &Lattice, distances: Distances)
 
 /// Finds the cells near the outline, and those near the coloured edges.
 ///
-/// The two differ: colouring drops slivers, which distances cannot resolve, but a cell must list the
-/// shape for them all the same.
+/// The two differ: colouring drops slivers, which distances cannot resolve, but a cell must list
+/// the shape for them all the same.
 fn bin_edges(cells: &mut ShapeCells, outline: &BezPath, lattice: &Lattice, distances: Distances) {
+    // Evaluators see the outline; distances are measured to edges that may lie this much beside it.
     let margin = distances.margin + EDGE_ERROR_TEXELS;
     let mut listed = BTreeSet::new();
     for contour in flatten(outline, LISTING_TOLERANCE) {
@@ -118,6 +121,8 @@ fn bin_edges(cells: &mut ShapeCells, outline: &BezPath, lattice: &Lattice, dista
     let mut near = BTreeSet::new();
     for (index, edge) in (0_u32..).zip(&cells.edges) {
         for line in edge.lines() {
+            // At least the margin, so that a listed cell never lacks the edge that it is listed
+            // for.
             let found = cells_near(line, lattice, distances.reach.max(margin));
             near.extend(found.into_iter().map(|cell| (cell, index)));
         }
@@ -128,11 +133,13 @@ fn bin_edges(cells: &mut ShapeCells, outline: &BezPath, lattice: &Lattice, dista
 
 /// Cells within `reach` of `line`.
 fn cells_near(line: Line, lattice: &Lattice, reach: f64) -> Vec<u32> {
+    // A line far beside the canvas would be cut into as many pieces as it has cells of length.
     let beyond = reach + 2.0 * lattice.cell_steps();
     let mut near = Vec::new();
     let Some(line) = clip_line(line, lattice.canvas.inflate(beyond, beyond)) else {
         return near;
     };
+    // Short pieces, because the cells of a long diagonal line's box are mostly far from the line.
     for piece in pieces(line, lattice.cell_steps()) {
         let area = Rect::from_points(piece.p0, piece.p1).inflate(reach, reach);
         let Some([columns, rows]) = lattice.cells_in(area) else {

@@ -20,8 +20,8 @@ use crate::coverage::{
     scales::Scales,
 };
 
-/// Segments of one shape in one cell. A shape with more would leave no room for others in the cell's
-/// list, which evaluators bound.
+/// Segments of one shape in one cell. A shape with more would leave no room for others in the
+/// cell's list, which evaluators bound.
 const MAX_CELL_SEGMENTS: usize = vtex_format::MAX_LIST_ITEMS as usize * 3 / 4;
 
 /// Where an item shows on the grid.
@@ -31,8 +31,8 @@ pub(crate) struct Cover {
     pub(crate) cells: ShapeCells,
     /// If it is curves, its outline in each cell that lists it, cell by cell.
     pub(crate) curves: Vec<CellCurves>,
-    /// If it is curves, the whole outline as the file stores it; `None` where a reader could not cut
-    /// it to the same records.
+    /// If it is curves, the whole outline as the file stores it; `None` where a reader could not
+    /// cut it to the same records.
     pub(crate) source: Option<SourceOutline>,
     /// Index into `curves` of each listed cell's first part; empty when each cell has exactly one.
     firsts: Vec<u32>,
@@ -52,6 +52,7 @@ impl Cover {
         let Ok(index) = self.cells.listed.binary_search(&cell) else {
             return &[];
         };
+        // Without `firsts` every cell has one part, so the index of the cell is that of the part.
         let first_of = |index: usize| match self.firsts.get(index) {
             Some(&first) => first as usize,
             None if self.firsts.is_empty() => index,
@@ -68,6 +69,7 @@ pub(crate) fn cover(
     lattice: &Lattice,
     scales: &Scales,
 ) -> Vec<Result<Cover, CurveError>> {
+    // There is no cutter if nothing is curves.
     let cutter = curve_lattice(placed, lattice, scales)
         .map(|curve_lattice| Cutter::new(lattice, curve_lattice, scales));
     let cover_one = |placed: &Placed| {
@@ -109,11 +111,13 @@ impl Cutter {
     }
 
     fn cut(&self, placed: &Placed) -> Result<Cover, CurveError> {
+        // Both lattices have their origin at the corner of cell (0, 0).
         let outline = self.units_from_steps * &placed.outline;
         let lowered = LoweredOutline::new(&outline, self.params.flatness_units)?;
         let shape = cut_to_cells(&lowered, &self.params);
         let source = stored_outline(&lowered, placed.rule);
         let mut cells = ShapeCells::default();
+        // A cell without an edge in its box has one winding: inside or not.
         for (cell, winding) in shape.covered {
             if placed.rule.fills(winding) {
                 cells.full.push(cell);
@@ -135,6 +139,7 @@ impl Cutter {
                     split(cell_curves, placed.rule, size)?
                 }
             };
+            // Checked after the split: strips together hold all segments again.
             if segments > MAX_CELL_SEGMENTS {
                 return Err(CurveError::Overflow);
             }
@@ -145,6 +150,7 @@ impl Cutter {
             curves.extend(parts);
         }
         let source = source.filter(|_| whole);
+        // The usual case needs no table.
         if curves.len() == cells.listed.len() {
             firsts = Vec::new();
         }

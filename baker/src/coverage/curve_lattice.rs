@@ -7,11 +7,11 @@ use crate::{
     number::{count, floor_index, to_f32},
 };
 
-/// How far lowering may move a curve, and turning a flat curve into a line, in pixels at the largest
-/// zoom.
+/// How far lowering may move a curve, and turning a flat curve into a line, in pixels at the
+/// largest zoom.
 const TOLERANCE_PX: f64 = 0.05;
-/// Width of a unit in pixels at the largest zoom, unless records cannot be that fine. Rounding moves
-/// a point by half a unit at most along each axis.
+/// Width of a unit in pixels at the largest zoom, unless records cannot be that fine. Rounding
+/// moves a point by half a unit at most along each axis.
 pub(crate) const UNIT_PX: f64 = 0.04;
 /// Least units along a cell, so that rounding does not show when `max_zoom` is small either.
 const MIN_UNITS_PER_CELL: usize = 1024;
@@ -46,9 +46,10 @@ pub(crate) fn curve_lattice(
     })
 }
 
-/// Tolerance of lowering and cutting in units: how far a quadratic may be from the cubic it replaces,
-/// and a line from the quadratic it replaces. An f32, because the file holds it and readers must cut
-/// with the same number. `longer_side_px` is the canvas' longer side at the largest zoom.
+/// Tolerance of lowering and cutting in units: how far a quadratic may be from the cubic it
+/// replaces, and a line from the quadratic it replaces. An f32, because the file holds it and
+/// readers must cut with the same number. `longer_side_px` is the canvas' longer side at the
+/// largest zoom.
 pub(crate) fn flatness_units(
     lattice: &Lattice,
     curve_lattice: CurveLattice,

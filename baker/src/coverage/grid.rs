@@ -6,24 +6,24 @@ use vtex_format::{Grid, MAX_TEXELS_PER_CELL};
 use crate::number::{floor_index, to_f32};
 
 /// Texels along a cell, unless the grid would then leave [`MIN_CELLS`]..=[`MAX_CELLS`]. Small cells
-/// mean short lists but many tiles. Measured on the Tiger at 1024 texels for 4, 6 and 8: 970, 905 and
-/// 889 KiB stored, 4.1, 4.3 and 4.8 MiB raw, 0.86, 1.10 and 1.33 entries for each lookup.
+/// mean short lists but many tiles. Measured on the Tiger at 1024 texels for 4, 6 and 8: 970, 905
+/// and 889 KiB stored, 4.1, 4.3 and 4.8 MiB raw, 0.86, 1.10 and 1.33 entries for each lookup.
 const TEXELS_PER_CELL: u32 = 6;
 /// Cells along the longer side of the smallest grid.
 const MIN_CELLS: u32 = 16;
 /// Cells along the longer side of the largest grid: 1 MiB of cell words when square.
 const MAX_CELLS: u32 = 512;
 /// Cells along the longer side of the grid when all shapes are curves. Few, because readers divide
-/// cells again when they load a file. Measured on the Tiger for 48, 64, 96 and 128: 480, 523, 621 and
-/// 716 KiB of records, 4.6, 4.1, 3.6 and 3.3 entries in a list.
+/// cells again when they load a file. Measured on the Tiger for 48, 64, 96 and 128: 480, 523, 621
+/// and 716 KiB of records, 4.6, 4.1, 3.6 and 3.3 entries in a list.
 const CURVE_CELLS: u32 = 64;
 /// Where the canvas' corner lies in the first cell. Drawings like round coordinates. An edge on a
-/// line of the grid would belong to the cells on both sides; with these fractions, which are far from
-/// any simple ratio, such an edge hardly ever lies on one.
+/// line of the grid would belong to the cells on both sides; with these fractions, which are far
+/// from any simple ratio, such an edge hardly ever lies on one.
 const LATTICE_OFFSET: [f32; 2] = [0.381_966, 0.276_393_2];
 
-/// The MSDF lattice: its points are the places of stored texels. Its unit is one step, its origin is
-/// the corner of cell (0, 0), and a cell is `texels_per_cell` steps wide.
+/// The MSDF lattice: its points are the places of stored texels. Its unit is one step, its origin
+/// is the corner of cell (0, 0), and a cell is `texels_per_cell` steps wide.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lattice {
     /// The grid as the file stores it.
@@ -44,11 +44,11 @@ impl Lattice {
         Self::with_cells(canvas_size, msdf_size, cells)
     }
 
-    /// The lattice of a drawing whose shapes are all curves. There are no texels then: `msdf_size` only
-    /// sets the length of a step.
+    /// The lattice of a drawing whose shapes are all curves. There are no texels then: `msdf_size`
+    /// only sets the length of a step.
     pub(crate) fn for_curves(canvas_size: [f64; 2], msdf_size: u32, mip0_size: u32) -> Self {
-        // A record has a margin of at most one cell, which must hold a ramp of half a texel of mip 0:
-        // so cells are no smaller than those texels.
+        // A record has a margin of at most one cell, which must hold a ramp of half a texel of mip
+        // 0: so cells are no smaller than those texels.
         let cells = CURVE_CELLS.min(mip0_size.max(1));
         Self::with_cells(canvas_size, msdf_size, cells)
     }
@@ -56,6 +56,7 @@ impl Lattice {
     /// The lattice with cells of half the side, or `None` when cells cannot be smaller.
     pub(crate) fn halved(&self, canvas_size: [f64; 2], mip0_size: u32) -> Option<Self> {
         let [columns, rows] = self.grid.cell_from_uv_scale;
+        // The longer side has a whole number of cells, so the larger scale is that number.
         let cells = 2 * floor_u32(columns.max(rows));
         let unit = self.grid.texels_per_cell.div_ceil(2);
         (cells <= MAX_CELLS.min(mip0_size))
@@ -64,10 +65,12 @@ impl Lattice {
 
     fn with_cells(canvas_size: [f64; 2], msdf_size: u32, cells: u32) -> Self {
         let texels_per_cell = msdf_size.div_ceil(cells).clamp(1, MAX_TEXELS_PER_CELL);
+        // The longer side has `cells` cells, the other as many as its length asks for, also a
+        // fraction.
         let longer = canvas_size[0].max(canvas_size[1]);
         let scale = canvas_size.map(|side| to_f32(side / longer * f64::from(cells)));
-        // The evaluator's own f32 arithmetic at uv = 1, the largest uv that it looks up: one cell too
-        // few here would send it beyond the grid.
+        // The evaluator's own f32 arithmetic at uv = 1, the largest uv that it looks up: one cell
+        // too few here would send it beyond the grid.
         let size_cells = [0, 1].map(|axis| to_cells((scale[axis] + LATTICE_OFFSET[axis]).floor()));
         let grid = Grid {
             size_cells,
@@ -114,10 +117,11 @@ impl Lattice {
         self.grid.size_cells[0] as usize * self.grid.size_cells[1] as usize
     }
 
-    /// Columns `[first, last]` and rows `[first, last]` of the cells that `area` meets; `None` when it
-    /// lies beside the grid. `area` is in steps.
+    /// Columns `[first, last]` and rows `[first, last]` of the cells that `area` meets; `None` when
+    /// it lies beside the grid. `area` is in steps.
     pub(crate) fn cells_in(&self, area: Rect) -> Option<[[u32; 2]; 2]> {
         let n = self.cell_steps();
+        // Half open: an area that ends before 0 or begins at the end of the grid does not meet it.
         let axis = |low: f64, high: f64, size: u32| {
             let end = f64::from(size);
             let (low, high) = (low / n, high / n);

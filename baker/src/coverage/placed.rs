@@ -116,8 +116,8 @@ pub(crate) fn place_item(
         Item::Shape(shape) => {
             let prepared = match verdict.coverage {
                 Coverage::Msdf => prepare(shape, canvas_longer),
-                // Windings need no preparation. It would even do harm: an edge that two shapes share
-                // must stay the same in both, or a seam shows.
+                // Windings need no preparation. It would even do harm: an edge that two shapes
+                // share must stay the same in both, or a seam shows.
                 Coverage::Curves => Prepared {
                     outline: clean(&shape.outline, canvas_longer),
                     rule: shape.fill_rule,
@@ -137,6 +137,7 @@ pub(crate) fn place_item(
             Placed::new(outline, clip.rule, PlacedKind::Clip)
         }
         Item::Patch(patch) => {
+            // The tolerance has no meaning for a rectangle.
             let outline = lattice.lattice_from_canvas * patch.rect.to_path(0.1);
             Placed::new(outline, FillRule::NonZero, PlacedKind::Patch)
         }

@@ -1,13 +1,14 @@
 //! The distances of a bake: how far an edge reaches, and how many pixels a step is.
 //!
-//! A lookup with a footprint sees an edge from some distance. Up to a footprint of one texel of mip 0
-//! it is answered by cells, and the coverage of an edge then falls from 1 to 0 over a *ramp* around
-//! it. A cell must list every shape whose ramp reaches into it.
+//! A lookup with a footprint sees an edge from some distance. Up to a footprint of one texel of mip
+//! 0 it is answered by cells, and the coverage of an edge then falls from 1 to 0 over a *ramp*
+//! around it. A cell must list every shape whose ramp reaches into it.
 
 use crate::{config::BakeConfig, coverage::grid::Lattice, number::to_f32};
 
 /// Steps beyond half the range within which an edge still takes part in a tile. A bilinear lookup
-/// mixes four texels, which lie up to a diagonal (1.42 steps) further from the edge than the lookup.
+/// mixes four texels, which lie up to a diagonal (1.42 steps) further from the edge than the
+/// lookup.
 const REACH_BEYOND_RANGE: f64 = 1.5;
 /// Steps by which f32 arithmetic may misplace a lookup in an evaluator, with room to spare.
 const ROUNDING_MARGIN: f64 = 0.01;

@@ -20,7 +20,8 @@ pub(crate) struct Verdict {
     pub(crate) coverage: Coverage,
     /// Why it is no MSDF, or what is wrong with its MSDF.
     pub(crate) finding: Finding,
-    /// Longer side of the shape in texels of the lattice on which its MSDF was judged; 0 if none was.
+    /// Longer side of the shape in texels of the lattice on which its MSDF was judged; 0 if none
+    /// was.
     pub(crate) size_texels: u32,
     /// The error of its MSDF, if it was measured.
     pub(crate) error: Option<FieldError>,

@@ -18,12 +18,14 @@ const MAX_HALVINGS: u32 = 160;
 /// bit-identical.
 pub(crate) fn clamp_outline(outline: &BezPath, farthest: f64) -> BezPath {
     let window = Rect::new(-farthest, -farthest, farthest, farthest);
+    // The usual case: nothing is far away.
     if is_inside(outline.control_box(), window) {
         return outline.clone();
     }
     let mut clamped = BezPath::new();
     let mut here = None;
     for segment in outline.segments() {
+        // A segment that does not continue the last one starts a contour.
         let start = clamp(segment.start(), window);
         if here != Some(start) {
             if here.is_some() {
@@ -53,6 +55,7 @@ fn push(segment: PathSeg, window: Rect, halvings: u32, clamped: &mut BezPath) {
     let small = area.width().max(area.height()) <= SMALLEST_SHARE * window.width();
     if beside || small || halvings == 0 {
         let end = clamp(segment.end(), window);
+        // Several pieces in a row may be moved to one corner.
         if clamped.elements().last().and_then(PathEl::end_point) != Some(end) {
             clamped.line_to(end);
         }

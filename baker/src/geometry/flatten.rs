@@ -10,8 +10,8 @@ const MAX_LINES: f64 = 65_536.0;
 /// The points of a contour in order.
 type Polyline = Vec<Point>;
 
-/// Appends the end points of the lines that replace `segment`. Its start is not appended. No line is
-/// further than `tolerance` from the curve.
+/// Appends the end points of the lines that replace `segment`. Its start is not appended. No line
+/// is further than `tolerance` from the curve.
 pub(crate) fn flatten_segment(segment: PathSeg, tolerance: f64, points: &mut Polyline) {
     let bend = match segment {
         PathSeg::Line(_) => 0.0,
@@ -22,8 +22,8 @@ pub(crate) fn flatten_segment(segment: PathSeg, tolerance: f64, points: &mut Pol
             6.0 * first.max(second)
         }
     };
-    // A chord over a step h of the parameter leaves the curve by at most h^2 max|B''| / 8. `bend` is
-    // that largest second derivative: constant for a quadratic, largest at an end for a cubic.
+    // A chord over a step h of the parameter leaves the curve by at most h^2 max|B''| / 8. `bend`
+    // is that largest second derivative: constant for a quadratic, largest at an end for a cubic.
     let lines = (bend / (8.0 * tolerance))
         .sqrt()
         .ceil()
@@ -48,6 +48,7 @@ pub(crate) fn flatten(outline: &BezPath, tolerance: f64) -> Vec<Polyline> {
             }
             PathEl::ClosePath => {
                 let first = points.first().copied();
+                // Repeat the first point, unless the contour already ends there.
                 if first != points.last().copied() {
                     points.extend(first);
                 }
@@ -81,6 +82,7 @@ pub(crate) fn clip_line(line: Line, window: Rect) -> Option<Line> {
         (-d.y, line.p0.y - window.y0),
         (d.y, window.y1 - line.p0.y),
     ] {
+        // The line is parallel to this side: all of it lies on one side of it.
         if p == 0.0 {
             if q < 0.0 {
                 return None;

@@ -51,11 +51,13 @@ impl Monotone {
         x.clamp(self.x_min, self.x_max)
     }
 
-    /// The parameter at height `y`: Newton's method, kept inside a bracket that shrinks. A step that
-    /// leaves the bracket becomes a bisection, so the loop converges for any cubic.
+    /// The parameter at height `y`: Newton's method, kept inside a bracket that shrinks. A step
+    /// that leaves the bracket becomes a bisection, so the loop converges for any cubic.
     fn parameter_at(&self, c: [f64; 4], y: f64) -> f64 {
+        // With the sign of the direction the function always grows with t.
         let sign = f64::from(self.direction);
         let (mut low, mut high) = (0.0_f64, 1.0_f64);
+        // Start where a straight piece would be.
         let mut t = (y - self.y_min) / (self.y_max - self.y_min);
         if self.direction < 0 {
             t = 1.0 - t;
@@ -75,6 +77,7 @@ impl Monotone {
             if !(next > low && next < high) {
                 next = 0.5 * (low + high);
             }
+            // Closer than f64 can tell parameters near 1 apart.
             if (next - t).abs() < 1e-16 {
                 break;
             }
@@ -87,6 +90,7 @@ impl Monotone {
 /// Coefficients of `1, t, t^2, t^3` for x and for y.
 fn power_basis(p: [Point; 4], degree: u32) -> ([f64; 4], [f64; 4]) {
     let of = |a: f64, b: f64, c: f64, d: f64| {
+        // Callers pass the control point of a quadratic twice; the second copy is not used.
         if degree == 2 {
             [a, 2.0 * (b - a), a - 2.0 * b + d, 0.0]
         } else {
@@ -154,6 +158,7 @@ impl Region {
                 first[row + 1] += 1;
             }
         }
+        // Counting sort: counts become the first place of each row.
         for row in 0..rows {
             first[row + 1] += first[row];
         }
@@ -174,6 +179,7 @@ impl Region {
 
     fn pieces_at(&self, y: f64) -> impl Iterator<Item = &Monotone> {
         let rows = self.row_first.len() - 1;
+        // Beyond the box `row_of` would still name a row.
         let inside = y >= self.bounds.y0 && y <= self.bounds.y1;
         let row = self.row_of(y, rows);
         let range = if inside {
@@ -224,6 +230,7 @@ impl Region {
 
     /// Whether the point at `x` on the line that has these `crossings` is filled.
     pub(crate) fn fills_row(&self, crossings: &[(f64, i32)], x: f64) -> bool {
+        // A crossing at x itself counts as left of the point, as in `winding`.
         let right = crossings.partition_point(|crossing| crossing.0 <= x);
         right > 0 && self.rule.fills(crossings[right - 1].1)
     }
@@ -243,6 +250,7 @@ fn monotone_pieces(segment: PathSeg) -> Vec<Monotone> {
         } else {
             segment.subsegment(pair[0]..pair[1])
         };
+        // The end of the segment is taken as it is: evaluating the curve there may round.
         let to = if pair[1] == 1.0 {
             segment.end()
         } else {
@@ -259,6 +267,7 @@ fn monotone_pieces(segment: PathSeg) -> Vec<Monotone> {
 
 fn monotone(curve: PathSeg) -> Option<Monotone> {
     let (y0, y1) = (curve.start().y, curve.end().y);
+    // Of no height: it meets no line by the half-open rule.
     if y0 == y1 {
         return None;
     }
@@ -279,6 +288,7 @@ fn y_extrema(segment: &PathSeg) -> Vec<f64> {
         PathSeg::Line(_) => Vec::new(),
         PathSeg::Quad(q) => {
             let (a, b) = (q.p1.y - q.p0.y, q.p2.y - q.p1.y);
+            // Infinite or NaN for a quadratic that is straight in y; filtered below.
             vec![a / (a - b)]
         }
         PathSeg::Cubic(c) => {

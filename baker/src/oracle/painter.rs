@@ -1,8 +1,8 @@
 //! The painter: tests every outline at a point and paints the items that contain it.
 //!
-//! It shares with curve records what they are made from: monotone lines and quadratics between points
-//! of the curve lattice ([`LoweredOutline`]). It shares nothing of what is done with them: it has no
-//! cells, no cuts, no steps, no layers and no f32.
+//! It shares with curve records what they are made from: monotone lines and quadratics between
+//! points of the curve lattice ([`LoweredOutline`]). It shares nothing of what is done with them:
+//! it has no cells, no cuts, no steps, no layers and no f32.
 
 use kurbo::{Affine, Point};
 use vtex_format::{COVERAGE_CURVES, VtexFile};
@@ -142,9 +142,11 @@ impl Painter {
         Some([axis(0, corner.x), axis(1, corner.y)])
     }
 
-    /// What a point lookup must return at `uv`, which is in \[0, 1\]^2: linear light, premultiplied.
+    /// What a point lookup must return at `uv`, which is in \[0, 1\]^2: linear light,
+    /// premultiplied.
     pub fn color(&self, uv: [f32; 2]) -> [f32; 4] {
         let mut items = self.covering(uv);
+        // The tree is painted back to front.
         items.reverse();
         let covering = Covering {
             items: &items,
@@ -161,6 +163,7 @@ impl Painter {
             .roots
             .iter()
             .all(|node| matches!(node, Node::Item(_)));
+        // Segments of the row come shape by shape from the front, as `segments` are sorted.
         let mut row = self.rows[self.row_of(p.y)].iter().copied().peekable();
         let mut first = 0;
         let mut items = Vec::new();
@@ -193,8 +196,8 @@ impl Painter {
         paint.map_or([0.0; 4], |paint| color_at(paint, uv))
     }
 
-    /// Distance from `uv` to the nearest outline, in units of the curve lattice; infinite if it is more
-    /// than `reach_units`.
+    /// Distance from `uv` to the nearest outline, in units of the curve lattice; infinite if it is
+    /// more than `reach_units`.
     pub fn edge_distance_units(&self, uv: [f32; 2], reach_units: f64) -> f64 {
         let p = self.point(uv);
         let rows = self.row_of(p.y - reach_units)..=self.row_of(p.y + reach_units);
@@ -216,8 +219,8 @@ impl Painter {
     }
 }
 
-/// What `segment` adds to the winding at `p`: its direction, if it crosses the height of `p` to the left
-/// of it. Half open, as the format says.
+/// What `segment` adds to the winding at `p`: its direction, if it crosses the height of `p` to the
+/// left of it. Half open, as the format says.
 fn crossing(segment: &Segment, p: Point) -> i32 {
     let crosses = segment.start.y <= p.y && p.y < segment.end.y;
     if !crosses || p.x < segment.x_min() {

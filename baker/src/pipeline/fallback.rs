@@ -1,4 +1,5 @@
-//! The fallback for outlines that are too complex for curves: shapes become patches, clips are dropped.
+//! The fallback for outlines that are too complex for curves: shapes become patches, clips are
+//! dropped.
 
 use vtex_format::{Warning, WarningCode};
 

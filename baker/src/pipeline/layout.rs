@@ -77,8 +77,9 @@ impl Attempt {
     }
 }
 
-/// Lays the drawing on a grid. If all shapes are curves, it is the coarsest one whose cells have room
-/// for the outlines, as far as [`MAX_PIECES`] allows; with MSDFs the judge has decided the size.
+/// Lays the drawing on a grid. If all shapes are curves, it is the coarsest one whose cells have
+/// room for the outlines, as far as [`MAX_PIECES`] allows; with MSDFs the judge has decided the
+/// size.
 fn lay(drawing: &Drawing, judgement: &Judgement, config: &BakeConfig) -> Attempt {
     let (canvas_size, mip0_size) = (drawing.canvas_size, config.mip0_size);
     let msdf_size = judgement.msdf_size;
@@ -99,8 +100,8 @@ fn lay(drawing: &Drawing, judgement: &Judgement, config: &BakeConfig) -> Attempt
     attempt
 }
 
-/// About how many pieces the cells of `lattice` would cut the outlines into. They are placed on another
-/// lattice, so lengths are taken relative to the canvas.
+/// About how many pieces the cells of `lattice` would cut the outlines into. They are placed on
+/// another lattice, so lengths are taken relative to the canvas.
 fn pieces(placed: &[Placed], lattice: &Lattice) -> f64 {
     let shapes = placed.iter().filter(|item| item.kind != PlacedKind::Patch);
     let segments = shapes.flat_map(|item| item.outline.segments());

@@ -1,5 +1,5 @@
-//! The stages of a bake in order: first [`draw`], from the SVG to a drawing, then [`assemble`], from the
-//! drawing to the file.
+//! The stages of a bake in order: first [`draw`], from the SVG to a drawing, then [`assemble`],
+//! from the drawing to the file.
 
 mod assemble;
 mod draw;

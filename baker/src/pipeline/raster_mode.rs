@@ -13,8 +13,8 @@ use crate::{
 
 /// The drawing as one image.
 ///
-/// The drawing is baked as curves first, and the image is averaged from lookups in that file: it shows
-/// what a vector file would.
+/// The drawing is baked as curves first, and the image is averaged from lookups in that file: it
+/// shows what a vector file would.
 ///
 /// # Errors
 /// As [`assemble`].

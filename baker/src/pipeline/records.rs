@@ -154,6 +154,7 @@ fn shape_records(input: &CellInput<'_>, lattice: &Lattice) -> Vec<ShapeRecord> {
             },
             layer_or_image,
             paint,
+            // An outline that preparation has emptied has no box.
             bounds_uv: if segments == 0 {
                 [0.0; 4]
             } else {

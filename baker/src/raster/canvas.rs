@@ -1,7 +1,7 @@
 //! The canvas image: mips of the whole canvas, averaged from lookups in the finished cells.
 //!
-//! A rasteriser composites coverage as alpha, and where opaque shapes abut the background then shows
-//! through. A mean of exact point lookups cannot show what none of them returns.
+//! A rasteriser composites coverage as alpha, and where opaque shapes abut the background then
+//! shows through. A mean of exact point lookups cannot show what none of them returns.
 
 use rayon::prelude::*;
 use vtex_format::{AddressMode, Image, PaintRecord, VtexFile};
@@ -18,17 +18,17 @@ use crate::{
 /// The canvas in uv.
 const WHOLE: [f32; 4] = [0.0, 0.0, 1.0, 1.0];
 /// How often cells are halved for these lookups. A fine cell is then about one texel wide; dividing
-/// further costs more than so few lookups save. For 2, 3 and 4 the bake of the Tiger takes 0.28, 0.26
-/// and 0.29 s of CPU time.
+/// further costs more than so few lookups save. For 2, 3 and 4 the bake of the Tiger takes 0.28,
+/// 0.26 and 0.29 s of CPU time.
 const HALVINGS: u32 = 3;
 /// Segments that all fine cells may hold together. Drawings with more are halved less often.
 const MAX_SEGMENTS: f64 = 1e7;
 /// Segments that all lookups together may test, which takes a second or two. Drawings with more get
 /// fewer lookups in a texel.
 const MAX_WALKED: f64 = 3e8;
-/// Number n of lookups in a texel that has more than one colour, and a generator g. Lookup i lies at
-/// `((i + 1/2) / n, (g i mod n + 1/2) / n)` of the texel, a rank-1 lattice: no two share a row or a
-/// column. The nearest of 32 are 5.7/32 apart; the best possible lattice would have 6.1/32.
+/// Number n of lookups in a texel that has more than one colour, and a generator g. Lookup i lies
+/// at `((i + 1/2) / n, (g i mod n + 1/2) / n)` of the texel, a rank-1 lattice: no two share a row
+/// or a column. The nearest of 32 are 5.7/32 apart; the best possible lattice would have 6.1/32.
 const LOOKUPS: [(u16, u16); 3] = [(32, 7), (16, 7), (8, 3)];
 
 /// How much work goes into the mips of one drawing.
@@ -40,11 +40,12 @@ struct Effort {
 }
 
 impl Effort {
-    /// As much as the drawing's segments allow. A segment takes at most three words of the file, and a
-    /// halving about doubles the number of cells that hold it.
+    /// As much as the drawing's segments allow. A segment takes at most three words of the file,
+    /// and a halving about doubles the number of cells that hold it.
     fn of(file: &VtexFile, size: [u32; 2]) -> Self {
         let segments = file.curves.len() as f64 / 3.0;
         let fits = |halvings: &u32| segments * f64::from(1_u32 << halvings) <= MAX_SEGMENTS;
+        // As many halvings as fit the budget, then as many lookups as fit theirs.
         let halvings = (0..=HALVINGS).rev().find(fits).unwrap_or(0);
         let cells = file.cells.len().max(1) as f64 * f64::from(1_u32 << halvings);
         let walked = segments / cells * f64::from(size[0]) * f64::from(size[1]);
@@ -84,6 +85,7 @@ pub(crate) fn no_mips() -> Image {
 /// Puts the mips into image 0 of `file`, which is [`no_mips`] so far. Level 0 has `size` texels.
 pub(crate) fn add_mips(file: &mut VtexFile, size: [u32; 2], mode: Mode) {
     let mips = match file.images.as_slice() {
+        // Averaging the raster itself is exact and faster than lookups in it.
         [_, raster] if mode == Mode::Raster => raster_mips(raster, size),
         _ => cell_mips(file, size),
     };
@@ -174,6 +176,7 @@ impl<'a> Texels<'a> {
     /// Mean colour of a texel: linear light, premultiplied.
     fn mean(&self, texel: [u32; 2]) -> [f32; 4] {
         let uv = |t: [f32; 2]| [0, 1].map(|i| (texel[i] as f32 + t[i]) / self.size[i] as f32);
+        // Most texels have one colour, which one look at the fine cell tells.
         if let Some(color) = self.sampler.flat_color(uv([0.0; 2]), uv([1.0; 2])) {
             return color;
         }

@@ -13,6 +13,8 @@ const MIN_SIDE: u32 = 16;
 pub(crate) fn fitted(image: LinearImage) -> LinearImage {
     let mut fitted = image;
     while fitted.size.iter().all(|&side| side >= MIN_SIDE) {
+        // Compared with the level above and not with the original: every level is a halving of the
+        // last.
         let half = fitted.reduced(fitted.size.map(|side| side.div_ceil(2)));
         if !stands_for(&half, &fitted) {
             break;
@@ -35,8 +37,8 @@ fn stands_for(coarse: &LinearImage, fine: &LinearImage) -> bool {
     })
 }
 
-/// Where the centre of fine texel `index` lies among the coarse ones: between which two, and the share
-/// of the second. At the ends both are the same texel.
+/// Where the centre of fine texel `index` lies among the coarse ones: between which two, and the
+/// share of the second. At the ends both are the same texel.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -47,6 +49,7 @@ fn place(index: usize, fine: u32, coarse: u32) -> (usize, usize, f32) {
     let at = (index as f32 + 0.5) * coarse as f32 / fine as f32 - 0.5;
     let last = coarse as usize - 1;
     let low = at.floor().max(0.0) as usize;
+    // Before the first centre lookups clamp to it.
     let share = (at - at.floor()) * f32::from(u8::from(at > 0.0));
     (low.min(last), (low + 1).min(last), share)
 }

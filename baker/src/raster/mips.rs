@@ -15,8 +15,8 @@ pub(crate) struct LinearImage {
 }
 
 impl LinearImage {
-    /// The image averaged down to `size`, which must not be larger. Weights are exact for any ratio of
-    /// sizes: odd sides lose no row, and the picture does not drift along the chain.
+    /// The image averaged down to `size`, which must not be larger. Weights are exact for any ratio
+    /// of sizes: odd sides lose no row, and the picture does not drift along the chain.
     pub(crate) fn reduced(&self, size: [u32; 2]) -> Self {
         let columns = spans(self.size[0], size[0]);
         let rows = spans(self.size[1], size[1]);
@@ -24,6 +24,8 @@ impl LinearImage {
         let texels = rows
             .par_iter()
             .flat_map_iter(|row| {
+                // First down the rows, then along the result: far fewer multiplications than texel
+                // by texel.
                 let column_sums = row_average(&self.texels, width, row);
                 columns
                     .iter()
@@ -64,7 +66,8 @@ fn spans(fine: u32, coarse: u32) -> Vec<Span> {
     let (fine, coarse) = (u64::from(fine), u64::from(coarse));
     (0..coarse)
         .map(|i| {
-            // In units of 1/coarse of a finer texel all borders are integers, so overlaps are exact.
+            // In units of 1/coarse of a finer texel all borders are integers, so overlaps are
+            // exact.
             let (start, end) = (i * fine, (i + 1) * fine);
             let (first, last) = (start / coarse, (end - 1) / coarse);
             let weights = (first..=last).map(|k| {

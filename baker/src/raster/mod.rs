@@ -1,7 +1,7 @@
 //! Images: patches, embedded images, and the mips of the canvas.
 //!
-//! All averaging is done in linear light, premultiplied by alpha: there a mean of colours is the mean
-//! of their light.
+//! All averaging is done in linear light, premultiplied by alpha: there a mean of colours is the
+//! mean of their light.
 
 pub(crate) mod canvas;
 mod detail;

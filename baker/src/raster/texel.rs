@@ -1,7 +1,7 @@
 //! The two encodings of texels, tiny-skia's and the file's, to and from linear light.
 //!
-//! Both have sRGB-encoded colour and premultiplied alpha, in different order: tiny-skia multiplies the
-//! encoded colour, the file encodes the multiplied light.
+//! Both have sRGB-encoded colour and premultiplied alpha, in different order: tiny-skia multiplies
+//! the encoded colour, the file encodes the multiplied light.
 
 use std::sync::LazyLock;
 
@@ -36,6 +36,7 @@ static TABLES: LazyLock<Tables> = LazyLock::new(|| {
     let mut threshold = [f32::INFINITY; 257];
     for (code, (value, first)) in (0_u16..256).zip(decode_table.iter_mut().zip(&mut threshold)) {
         *value = decode(f32::from(code) / 255.0);
+        // Rounding to the nearest code changes half way between two codes, on the encoded side.
         *first = decode(((f32::from(code) - 0.5) / 255.0).max(0.0));
     }
     threshold[0] = f32::NEG_INFINITY;
@@ -63,6 +64,7 @@ pub(crate) fn decode_u8(code: u8) -> f32 {
 pub(crate) fn encode_u8(linear: f32) -> u8 {
     let tables = &*TABLES;
     let linear = linear.clamp(0.0, 1.0);
+    // The guess is off by one code at most, so the loops hardly run.
     let step = ((linear * GUESS_STEPS as f32) as usize).min(GUESS_STEPS - 1);
     let mut code = tables.guess[step];
     while linear >= tables.threshold[usize::from(code) + 1] {
@@ -84,6 +86,7 @@ pub(crate) fn linear_from_skia(texel: [u8; 4]) -> [f32; 4] {
         return [decode_u8(r), decode_u8(g), decode_u8(b), 1.0];
     }
     let alpha = f32::from(a) / 255.0;
+    // Undo the multiplication before decoding: the transfer function is not linear.
     let channel = |c: u8| alpha * decode((f32::from(c) / f32::from(a)).min(1.0));
     [channel(r), channel(g), channel(b), alpha]
 }

@@ -1,8 +1,8 @@
 //! Memory and time that resvg needs to paint a subtree, estimated before it starts.
 //!
-//! A few lines of SVG can ask for gigabytes or hours: a filter on a huge region, a mask in a mask in a
-//! mask, a pattern of patterns. Too much for the whole file is an error; too much for one patch makes
-//! the patch coarser.
+//! A few lines of SVG can ask for gigabytes or hours: a filter on a huge region, a mask in a mask
+//! in a mask, a pattern of patterns. Too much for the whole file is an error; too much for one
+//! patch makes the patch coarser.
 
 use kurbo::Affine;
 use usvg::filter::{Filter, Kind};
@@ -15,8 +15,8 @@ use crate::svg::path::{affine, transformed_bounds};
 const PRIMITIVE_NS: f64 = 60.0;
 /// Nanoseconds on a texel of `feTurbulence`, for each octave.
 const OCTAVE_NS: f64 = 100.0;
-/// Nanoseconds on a sample of the window of `feMorphology` or `feConvolveMatrix`. resvg visits every
-/// sample of the window for every texel.
+/// Nanoseconds on a sample of the window of `feMorphology` or `feConvolveMatrix`. resvg visits
+/// every sample of the window for every texel.
 const SAMPLE_NS: f64 = 2.0;
 /// Largest side of a filter region, in canvases: resvg makes no larger layers.
 const MAX_REGION_CANVASES: f64 = 5.0;
@@ -30,12 +30,13 @@ const MAX_PATCH_FILTER_NS: f64 = 5e9;
 pub(crate) struct Cost {
     /// Most layers of the subtree's size that exist at the same time.
     pub(crate) layers: f64,
-    /// Largest area of pattern tiles that exist at the same time, in square user units of the canvas.
+    /// Largest area of pattern tiles that exist at the same time, in square user units of the
+    /// canvas.
     pub(crate) pattern_area: f64,
     /// Nanoseconds for all filters without windows.
     pub(crate) filter_ns: f64,
-    /// Nanoseconds for filters with a window. The window grows with the scale as well, so their time
-    /// grows with the square of the number of texels.
+    /// Nanoseconds for filters with a window. The window grows with the scale as well, so their
+    /// time grows with the square of the number of texels.
     pub(crate) window_ns: f64,
 }
 
@@ -73,8 +74,8 @@ impl Cost {
             .iter()
             .map(|n| Self::of_node(n, canvas_from_group, canvas));
         let mut cost = children.fold(Self::default(), Self::beside);
-        // A mask or clip path is painted while the layer of its group waits, and so is each mask on a
-        // mask.
+        // A mask or clip path is painted while the layer of its group waits, and so is each mask on
+        // a mask.
         if let Some(mask) = group.mask() {
             let links = std::iter::successors(Some(mask), |m| m.mask()).count();
             let inner = Self::of_group(mask.root(), canvas_from_group, canvas);
@@ -93,6 +94,7 @@ impl Cost {
             .map(|f| f.primitives().len() + 2)
             .max()
             .unwrap_or(0);
+        // An isolated group is painted on a layer of its own.
         let own = if group.should_isolate() { 1.0 } else { 0.0 };
         for filter in group.filters() {
             cost = cost.plus_filter(filter, canvas_from_group, canvas);
@@ -108,8 +110,8 @@ impl Cost {
         ]
     }
 
-    /// The largest multiple of `base` texels along a user unit at which the filters of one patch stay
-    /// within their time.
+    /// The largest multiple of `base` texels along a user unit at which the filters of one patch
+    /// stay within their time.
     pub(crate) fn filter_density(&self, base: f64) -> f64 {
         let [filters, windows] = self
             .filter_work_ns(base)
@@ -153,6 +155,7 @@ impl Cost {
     fn plus_filter(self, filter: &Filter, canvas_from_group: Affine, canvas: Canvas) -> Self {
         let rect = filter.rect().to_rect();
         let region = transformed_bounds(rect, canvas_from_group);
+        // The region is painted on layers, whose size resvg bounds.
         let area = region.width().min(MAX_REGION_CANVASES * canvas[0])
             * region.height().min(MAX_REGION_CANVASES * canvas[1]);
         let [a, b, c, d, _, _] = canvas_from_group.as_coeffs();
@@ -170,6 +173,7 @@ impl Cost {
                     let height = 2.0 * f64::from(fe.radius_y().get()) * scale_y;
                     (SAMPLE_NS, (width * height).min(area))
                 }
+                // `PRIMITIVE_NS` covers all others.
                 _ => (0.0, 0.0),
             };
             cost.filter_ns += area * (texel_ns + PRIMITIVE_NS);

@@ -32,8 +32,8 @@ pub(crate) fn bez_path(path: &tiny_skia_path::Path) -> BezPath {
         .collect()
 }
 
-/// The path with every subpath closed, as filling does (SVG 2 sec. 13.4), and without subpaths of one
-/// point.
+/// The path with every subpath closed, as filling does (SVG 2 sec. 13.4), and without subpaths of
+/// one point.
 pub(crate) fn close_subpaths(path: &BezPath) -> BezPath {
     let mut closed = BezPath::new();
     let mut open = false;
@@ -54,6 +54,7 @@ pub(crate) fn close_subpaths(path: &BezPath) -> BezPath {
                 open = false;
             }
             _ => {
+                // Emitted only now, so a move without drawing leaves nothing behind.
                 if let Some(p) = pending_move.take() {
                     closed.move_to(p);
                 }

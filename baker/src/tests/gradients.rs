@@ -40,8 +40,8 @@ fn resvg_picture(svg: &str) -> Pixmap {
     pixmap
 }
 
-/// The share of pixels at whose centre a lookup has another colour than resvg's picture, which is to
-/// be painted without anti-aliasing.
+/// The share of pixels at whose centre a lookup has another colour than resvg's picture, which is
+/// to be painted without anti-aliasing.
 fn wrong_share(svg: &str) -> f64 {
     let file = baked(svg);
     assert_ne!(file.spec.features & Features::GRADIENTS, 0, "{svg}");

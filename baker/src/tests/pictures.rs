@@ -39,8 +39,8 @@ fn resvg_picture(tree: &usvg::Tree, size: [u32; 2]) -> Pixmap {
 /// Samples a side for each texel compared. Without them tiny-skia's hairlines and its 4 x 4
 /// coverage samples, not our outlines, decide the difference of thin strokes.
 const SAMPLES: u32 = 8;
-/// By how much a texel on an edge may differ: resvg composites its 8-bit coverage sRGB-encoded, which
-/// between dark and light is off by up to a quarter of a sample.
+/// By how much a texel on an edge may differ: resvg composites its 8-bit coverage sRGB-encoded,
+/// which between dark and light is off by up to a quarter of a sample.
 const EDGE_CODES: u8 = 32;
 /// Texels a side for each texel compared in which our lookups lie.
 const OWN_SAMPLES: u32 = 3;

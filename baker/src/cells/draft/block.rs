@@ -37,7 +37,8 @@ pub(super) struct GroupDraft<'a> {
     pub(super) tests: Vec<Test<'a>>,
     /// Masks whose weight differs within the cell.
     pub(super) masks: Vec<(MaskKind, Vec<Block<'a>>)>,
-    /// How the body is composited as a whole; `None` when its entries may go straight into the list.
+    /// How the body is composited as a whole; `None` when its entries may go straight into the
+    /// list.
     pub(super) compositing: Option<Compositing>,
     /// Front to back.
     pub(super) body: Vec<Block<'a>>,
@@ -143,6 +144,7 @@ impl<'a> Drafting<'a, '_, '_> {
                     if self.end_run(&mut run, &mut blocks) {
                         return blocks;
                     }
+                    // The group owns a range of items, which is a suffix of what is left.
                     let first = rest.partition_point(|other| other.item < group.items[0]);
                     let (others, own) = rest.split_at(first);
                     rest = others;
@@ -170,6 +172,7 @@ impl<'a> Drafting<'a, '_, '_> {
     /// What is left of a group in the cell: nothing, its body, or one block.
     fn group(&mut self, group: &'a Group, present: &[Present]) -> Vec<Block<'a>> {
         let formula = clip::formula(self.input, &group.clips, present, self.cell);
+        // Clipped away in this cell.
         if formula == Formula::Never {
             return Vec::new();
         }
@@ -177,6 +180,7 @@ impl<'a> Drafting<'a, '_, '_> {
         if body.is_empty() {
             return Vec::new();
         }
+        // A mask that has one weight in the cell is an opacity.
         let mut opacity = group.opacity;
         let mut masks = Vec::new();
         for mask in &group.masks {
@@ -185,10 +189,12 @@ impl<'a> Drafting<'a, '_, '_> {
                 Err(blocks) => masks.push((mask.kind, blocks)),
             }
         }
+        // Faded to nothing in this cell.
         if opacity <= 0.0 {
             return Vec::new();
         }
         let tests = formula.into_tests();
+        // The same rule as for the drawing, but with what is left in this cell.
         let is_group = group.isolated || opacity < 1.0 || !masks.is_empty();
         let mut body = body;
         let mut compositing = is_group.then_some(Compositing {
@@ -210,7 +216,8 @@ impl<'a> Drafting<'a, '_, '_> {
         })]
     }
 
-    /// The weight of a mask that is the same in the whole cell, or else the mask's picture as `Err`.
+    /// The weight of a mask that is the same in the whole cell, or else the mask's picture as
+    /// `Err`.
     fn mask(&mut self, mask: &'a Mask, present: &[Present]) -> Result<f32, Vec<Block<'a>>> {
         let blocks = self.nodes(&mask.children, present);
         match blocks.as_slice() {
@@ -223,8 +230,8 @@ impl<'a> Drafting<'a, '_, '_> {
         }
     }
 
-    /// Applies `opacity` to the body itself, so that no group is needed, and returns whether it could.
-    /// A single entry with a solid paint can take it into the paint.
+    /// Applies `opacity` to the body itself, so that no group is needed, and returns whether it
+    /// could. A single entry with a solid paint can take it into the paint.
     fn fades(&mut self, body: &mut [Block<'a>], opacity: f32) -> bool {
         let [Block::Entry(draft)] = body else {
             // Several entries may hide each other: faded one by one they would show through.
@@ -235,6 +242,7 @@ impl<'a> Drafting<'a, '_, '_> {
             Draft::Curves(curves) => &mut curves.paint,
             Draft::Image { .. } => return opacity >= 1.0,
         };
+        // A single entry has nothing to blend with inside the group.
         if opacity >= 1.0 {
             return true;
         }

@@ -72,8 +72,10 @@ fn all<'a>(formulas: impl IntoIterator<Item = Formula<'a>>) -> Formula<'a> {
     let mut kept = Vec::new();
     for formula in formulas {
         match formula {
+            // One empty member makes the intersection empty.
             Formula::Never => return Formula::Never,
             Formula::Always => {}
+            // Nested intersections become one, which saves jumps to jumps.
             Formula::All(inner) => kept.extend(inner),
             other => kept.push(other),
         }
@@ -90,6 +92,7 @@ fn any<'a>(formulas: impl IntoIterator<Item = Formula<'a>>) -> Formula<'a> {
     let mut kept = Vec::new();
     for formula in formulas {
         match formula {
+            // One full member makes the union full.
             Formula::Always => return Formula::Always,
             Formula::Never => {}
             Formula::Any(inner) => kept.extend(inner),
@@ -143,12 +146,15 @@ impl<'a> Code<'a> {
 
     /// As [`Self::jump_if`], for formulas of which the first that is `decisive` decides the whole.
     fn chain(&mut self, mut formulas: Vec<Formula<'a>>, decisive: bool, value: bool, to: Label) {
+        // Every member may decide on its own, so each jumps to the target directly.
         if decisive == value {
             for formula in formulas {
                 self.jump_if(formula, value, to);
             }
             return;
         }
+        // Otherwise the target is reached only if no member decides. All but the last jump behind
+        // the whole when they decide; the last one alone can jump to the target.
         let last = formulas.pop();
         let behind = Label::Place(self.places.len());
         self.places.push(0);
@@ -159,6 +165,7 @@ impl<'a> Code<'a> {
         if let Some(last) = last {
             self.jump_if(last, value, to);
         }
+        // Here the evaluation continues when a member has decided.
         self.places[place] = self.tests.len();
     }
 

@@ -76,6 +76,7 @@ impl<'p> ListEncoder<'p> {
     /// Offset of the list in the section, which may be that of an equal one.
     fn list_offset(&mut self, blocks: &[Block<'_>]) -> Result<u32, BakeError> {
         let count: usize = blocks.iter().map(Block::entry_count).sum();
+        // Counted before entries are made, so that a hostile drawing cannot take the memory.
         if count > MAX_ENTRIES_PER_CELL as usize {
             return Err(BakeError::Limit(format!(
                 "{count} shapes show in one cell of the grid, at most {MAX_ENTRIES_PER_CELL} can"
@@ -86,6 +87,7 @@ impl<'p> ListEncoder<'p> {
         if let Some(last) = entries.last_mut() {
             last.last = true;
         }
+        // Invariant of the format: evaluators have a stack of fixed size.
         if list_frames(&entries).map_or(true, |frames| frames > MAX_FRAMES) {
             return Err(BakeError::Limit("groups nest too deeply".into()));
         }
@@ -97,6 +99,7 @@ impl<'p> ListEncoder<'p> {
         }
         let next = u32::try_from(self.lists.entries.len())
             .map_err(|_| BakeError::Limit("the cells' lists are too long".into()))?;
+        // A new list goes to the end; a known one keeps its place and nothing is appended.
         let offset = *self.shared.entry(words.clone()).or_insert(next);
         if offset == next {
             self.lists.entries.extend(words);
@@ -117,6 +120,7 @@ impl<'p> ListEncoder<'p> {
     /// Tests, then masks, then the body. Offsets of jumps count the entries that they skip: to the
     /// next test they continue with, or to the group's end.
     fn group(&mut self, group: &GroupDraft<'_>, entries: &mut Vec<Entry>) -> Result<(), BakeError> {
+        // Absolute places first; offsets are counted from the entry after the jump.
         let end = entries.len() + Block::group_entry_count(group);
         let first = entries.len();
         for (place, test) in group.tests.iter().enumerate() {
@@ -142,6 +146,7 @@ impl<'p> ListEncoder<'p> {
     fn test(&mut self, test: &Test<'_>, skipped: usize) -> Result<Entry, BakeError> {
         Ok(Entry {
             kind: EntryKind::Test,
+            // In a test this bit says which side jumps.
             opaque: test.jumps_inside,
             index: count(skipped)?,
             data: self.record_offset(&test.outline)?,
@@ -158,6 +163,7 @@ impl<'p> ListEncoder<'p> {
             }
             Draft::Image { image } => (EntryKind::Image, *image, 0),
             Draft::Tile { paint, tile } => {
+                // Tiles are sorted, so the index of an equal one is where it would be inserted.
                 let tile = self.lists.tiles.partition_point(|other| other < tile);
                 let tile = u32::try_from(tile).unwrap_or(u32::MAX);
                 (EntryKind::Msdf, *paint, tile)
@@ -166,6 +172,7 @@ impl<'p> ListEncoder<'p> {
         Ok(Entry {
             kind,
             last: false,
+            // The alpha of an image differs from texel to texel.
             opaque: kind != EntryKind::Image && self.paints.is_opaque(index),
             index,
             data,

@@ -75,6 +75,7 @@ fn draft_item<'a>(input: &CellInput<'a>, present: Present, cell: u32) -> Vec<Dra
     let Present { item, full } = present;
     let index = item as usize;
     let paint = input.paint_or_image[index];
+    // The index names an image here, not a paint.
     if input.placed[index].kind == PlacedKind::Patch {
         return vec![Draft::Image { image: paint }];
     }
@@ -87,6 +88,7 @@ fn draft_item<'a>(input: &CellInput<'a>, present: Present, cell: u32) -> Vec<Dra
     }
     let rank = input.packing.ranks[index];
     let layer = input.layer_of_rank[rank as usize];
+    // Neither an image nor full nor curves: it is an MSDF.
     let tile = TileDraft {
         layer,
         cell,
@@ -129,6 +131,8 @@ fn merge<'a>(
 ) -> bool {
     match (front, back) {
         (Draft::Full { paint }, Draft::Full { paint: behind }) => {
+            // Solid paints over the whole cell are one colour, computed as lookups would composite
+            // them.
             let both = paints.intern_over(*paint, *behind);
             *paint = both.unwrap_or(*paint);
             both.is_some()
@@ -140,6 +144,7 @@ fn merge<'a>(
                 tile: other,
             },
         ) if paint == other_paint && tile.layer == other.layer => {
+            // Shapes of one layer and paint share a tile: the nearest edge decides between them.
             tile.items.extend(&other.items);
             tile.items.sort_unstable();
             true
@@ -163,6 +168,7 @@ impl CurvesDraft<'_> {
             return false;
         }
         let parts = [self.parts.as_slice(), &other.parts].concat();
+        // The two together may be too much for one record; then each keeps its own.
         let Ok(words) = encode_record(&parts, self.rule) else {
             return false;
         };

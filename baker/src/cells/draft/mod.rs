@@ -35,7 +35,8 @@ pub(crate) fn build_cells(
     for block in drafts.iter().flatten() {
         block.tiles(&mut tiles);
     }
-    // The format wants tiles by layer. A layer may have several tiles in a cell, one for each paint.
+    // The format wants tiles by layer. A layer may have several tiles in a cell, one for each
+    // paint.
     tiles.sort_unstable();
     let mut encoder = ListEncoder::new(tiles, paints);
     for cell in &drafts {

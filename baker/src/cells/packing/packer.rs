@@ -60,11 +60,14 @@ impl<'a> Packer<'a> {
             self.ranks.push(0);
             return;
         }
+        // Lines no longer than a bucket lie in few buckets.
         let side = self.buckets.side;
         let boundary = boundary(&self.items[index], self.window, side);
         self.run_points.push(boundary.run_points);
+        // Ranks below the floor need no inside tests: the item must go above them anyway.
         let floor = self.rank_above_near(&boundary.lines);
         let rank = self.rank_above_containing(index, floor);
+        // A rank that nothing had before.
         if rank == self.members.len() {
             self.members.push(Vec::new());
         }
@@ -98,6 +101,7 @@ impl<'a> Packer<'a> {
     /// contained in it.
     fn rank_above_containing(&self, index: usize, floor: usize) -> usize {
         (floor..self.members.len())
+            // Search from the top: the first rank with a containing item decides.
             .rev()
             .find(|&rank| {
                 let mut members = self.members[rank].iter();
@@ -140,6 +144,8 @@ fn add_contour(contour: &[Point], window: Rect, longest: f64, boundary: &mut Bou
             run_end = None;
             continue;
         };
+        // Clipping cuts the boundary into runs. Within a run one point speaks for all, because
+        // nothing crosses it: near boundaries have been dealt with.
         if run_end != Some(line.p0) {
             boundary.run_points.push(line.p0);
         }
@@ -160,6 +166,8 @@ struct Buckets {
 
 impl Buckets {
     fn new(window: Rect, reach: f64) -> Self {
+        // A bucket is at least as wide as the reach, so near lines are in the same bucket or a
+        // neighbour.
         let side = (window.width().max(window.height()) / BUCKETS).max(reach);
         let columns = floor_index(window.width() / side) + 1;
         let rows = floor_index(window.height() / side) + 1;

@@ -1,7 +1,8 @@
 //! Lowering: outlines become monotone lines and quadratics between points of the curve lattice.
 //!
-//! A curve is always cut in the same of its two directions. So an edge that two shapes share, running
-//! one way in one and the other way in the other, becomes the same segments in both: no seam.
+//! A curve is always cut in the same of its two directions. So an edge that two shapes share,
+//! running one way in one and the other way in the other, becomes the same segments in both: no
+//! seam.
 
 use kurbo::{BezPath, CubicBez, PathEl, Point, QuadBez};
 use vtex_format::cut::parameter;
@@ -11,8 +12,8 @@ use super::CurveError;
 /// Largest coordinate in units. Up to here f64 keeps cuts far more precise than a unit. A canvas of
 /// 128 cells is 2^23 units wide.
 const MAX_COORDINATE: f64 = (1_u64 << 40) as f64;
-/// Most quadratics that a monotone piece of a cubic becomes. A piece that needs more is less exact than
-/// asked. An arc across the whole canvas at the largest zoom takes about 30.
+/// Most quadratics that a monotone piece of a cubic becomes. A piece that needs more is less exact
+/// than asked. An arc across the whole canvas at the largest zoom takes about 30.
 const MAX_PIECES: u32 = 1024;
 /// Share of a cubic's parameter range that one quadratic covers at least, whatever its error.
 const SHORTEST_STEP: f64 = 1.0 / 1024.0;
@@ -70,8 +71,8 @@ pub(crate) struct LoweredOutline {
 }
 
 impl LoweredOutline {
-    /// Lowers an outline whose coordinates are in units. Open contours are closed. Quadratics replace
-    /// cubics within `tolerance` units.
+    /// Lowers an outline whose coordinates are in units. Open contours are closed. Quadratics
+    /// replace cubics within `tolerance` units.
     ///
     /// # Errors
     /// [`CurveError::Range`] for coordinates that are not finite or too large.
@@ -85,6 +86,8 @@ impl LoweredOutline {
             check_range(element)?;
             match *element {
                 PathEl::MoveTo(p) => {
+                    // A move ends the contour before it. Close that one: an open contour would
+                    // leak.
                     lowering.line(here, first);
                     (first, here) = (p, p);
                 }
@@ -106,6 +109,7 @@ impl LoweredOutline {
                 }
             }
         }
+        // The last contour has no move behind it.
         lowering.line(here, first);
         Ok(Self {
             segments: lowering.segments,
@@ -146,6 +150,7 @@ impl Lowering {
         } else {
             (QuadBez::new(quad.p2, quad.p1, quad.p0), false)
         };
+        // Not monotone yet; only its blossom is used.
         let whole = Segment {
             start: quad.p0,
             control: Some(quad.p1),
@@ -167,6 +172,7 @@ impl Lowering {
         for t in cuts.into_iter().chain([1.0]) {
             // Rounded once, and the next part starts there.
             let end = whole.blossom(t, t).round();
+            // Exact for the unrounded ends. Rounding the ends bends the part by about half a unit.
             let control = whole.blossom(from.0, t);
             self.push_along(forward, from.1, control, end);
             from = (t, end);
@@ -183,10 +189,12 @@ impl Lowering {
             (reversed, false)
         };
         let mut cuts = extrema([cubic.p0.x, cubic.p1.x, cubic.p2.x, cubic.p3.x]);
+        // The same parameter may turn both coordinates.
         cuts.extend(extrema([cubic.p0.y, cubic.p1.y, cubic.p2.y, cubic.p3.y]));
         cuts.sort_by(f64::total_cmp);
         let mut from = 0.0;
         for t in cuts.into_iter().chain([1.0]) {
+            // Equal parameters would give a piece of no length.
             if t > from {
                 self.monotone_cubic(&subcubic(&cubic, from, t), forward);
                 from = t;
@@ -199,6 +207,7 @@ impl Lowering {
     /// allows.
     fn monotone_cubic(&mut self, cubic: &CubicBez, forward: bool) {
         let mut from = 0.0;
+        // Try the whole piece first: most need one quadratic.
         let mut step = 1.0_f64;
         for _ in 0..MAX_PIECES {
             let (to, quad) = longest_quad(cubic, from, step, self.tolerance);
@@ -231,8 +240,10 @@ impl Lowering {
         if from == to {
             return;
         }
+        // Equal heights are ordered by x, so that every segment has one canonical direction.
         let down = (from.y, from.x) < (to.y, to.x);
         let (start, end) = if down { (from, to) } else { (to, from) };
+        // Rounding may push the control point out of the box; inside it the segment stays monotone.
         let control = control.map(|c| clamp_to_box(c.round(), start, end));
         self.segments.push(Segment {
             start,
@@ -269,12 +280,14 @@ fn extrema([p0, p1, p2, p3]: [f64; 4]) -> Vec<f64> {
         return Vec::new();
     }
     let q = -(b + discriminant.sqrt().copysign(b));
+    // Division by zero gives infinity or NaN, which the range below excludes.
     let roots = [q / a, c / q];
     roots.into_iter().filter(|t| *t > 0.0 && *t < 1.0).collect()
 }
 
 /// The part of a cubic between two parameters. Its ends are bit-exact at 0 and 1.
 fn subcubic(cubic: &CubicBez, from: f64, to: f64) -> CubicBez {
+    // The blossom of the cubic: de Casteljau with a parameter of its own in each round.
     let at = |r: f64, s: f64, t: f64| {
         let ends = [cubic.p0, cubic.p1, cubic.p2, cubic.p3].map(Point::to_vec2);
         let first = [0, 1, 2].map(|i| ends[i].lerp(ends[i + 1], r));
@@ -317,8 +330,8 @@ fn longest_quad(cubic: &CubicBez, from: f64, step: f64, tolerance: f64) -> (f64,
 }
 
 /// The better of two quadratics for a monotone cubic, with its error. A control point where the end
-/// tangents meet gives a smooth join and an error of fourth order. Where the tangents do not meet, as
-/// at a point of inflection, the control point that keeps the middle serves.
+/// tangents meet gives a smooth join and an error of fourth order. Where the tangents do not meet,
+/// as at a point of inflection, the control point that keeps the middle serves.
 fn best_quad(cubic: &CubicBez) -> (QuadBez, f64) {
     let [p0, p1, p2, p3] = [cubic.p0, cubic.p1, cubic.p2, cubic.p3].map(Point::to_vec2);
     let with = |control: Point| {
@@ -326,12 +339,15 @@ fn best_quad(cubic: &CubicBez) -> (QuadBez, f64) {
         let quad = QuadBez::new(cubic.p0, control, cubic.p3);
         (quad, quad_error(cubic, &quad))
     };
+    // The control point for which both curves have the same point at t = 1/2.
     let middle = with((0.25 * (3.0 * (p1 + p2) - p0 - p3)).to_point());
     let (a, b) = (p1 - p0, p3 - p2);
+    // Where the tangents at both ends meet, in lengths of the first.
     let along = (p3 - p0).cross(b) / a.cross(b);
     let meets = along.is_finite() && along > 0.0;
     let tangent = meets.then(|| with((p0 + along * a).to_point()));
     match tangent {
+        // The smoother one is taken if it is as good.
         Some(tangent) if tangent.1 <= middle.1 => tangent,
         _ => middle,
     }
@@ -341,6 +357,7 @@ fn best_quad(cubic: &CubicBez) -> (QuadBez, f64) {
 /// measured across their chord, which is never less than the true distance at that place.
 fn quad_error(cubic: &CubicBez, quad: &QuadBez) -> f64 {
     let chord = cubic.p3 - cubic.p0;
+    // In coordinates along and across the chord.
     let chord = chord / chord.hypot();
     if !chord.is_finite() {
         return 0.0;
@@ -356,9 +373,11 @@ fn quad_error(cubic: &CubicBez, quad: &QuadBez) -> f64 {
         let weights = [3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
         let x = weights[0] * c1.0 + weights[1] * c2.0 + weights[2] * end;
         let y = weights[0] * c1.1 + weights[1] * c2.1;
+        // The quadratic at the same place along the chord; both curves are monotone along it.
         let u = parameter(0.0, Some(control.0), end, x);
         (y - 2.0 * (1.0 - u) * u * control.1).abs()
     };
+    // Seven places find the largest error of curves that differ this little.
     let places = [0.1, 0.22, 0.36, 0.5, 0.64, 0.78, 0.9];
     places.into_iter().map(gap).fold(0.0, f64::max)
 }

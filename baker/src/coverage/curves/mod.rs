@@ -3,11 +3,11 @@
 //! An outline is lowered once to monotone lines and quadratics on the curve lattice ([`lower`]). A
 //! sweep over each row of cells then cuts the segments to the *box* of each cell: the cell widened
 //! by a margin ([`sweep`]). What lies to the left of a box changes the winding inside only through
-//! the height at which it is passed; it becomes *steps*. Records hold the result ([`record`]). A cell
-//! with more segments than a record holds is split into strips ([`split`]).
+//! the height at which it is passed; it becomes *steps*. Records hold the result ([`record`]). A
+//! cell with more segments than a record holds is split into strips ([`split`]).
 //!
-//! Invariant: watertight. A lookup counts the crossings to its left; if one is lost or counted twice,
-//! a streak runs across the cell. Four rules prevent that:
+//! Invariant: watertight. A lookup counts the crossings to its left; if one is lost or counted
+//! twice, a streak runs across the cell. Four rules prevent that:
 //! - Every contour is a closed chain of lattice points.
 //! - A point that two segments share is rounded once, so it is the same point for both.
 //! - The cut at the left edge of a box gives one y to the segment inside and to the step outside.

@@ -5,8 +5,8 @@ use vtex_format::cut::CellCurves;
 use super::CurveError;
 use crate::drawing::FillRule;
 
-/// The words of one record for shapes that share a cell, a paint and a fill rule. The shapes must not
-/// overlap: their windings are added.
+/// The words of one record for shapes that share a cell, a paint and a fill rule. The shapes must
+/// not overlap: their windings are added.
 ///
 /// # Errors
 /// [`CurveError::Overflow`] when they do not fit into one record.

@@ -6,7 +6,8 @@ use vtex_format::{SourceOutline, SourceSegment};
 use super::lower::{LoweredOutline, Segment};
 use crate::drawing::FillRule;
 
-/// The outline as stored; `None` when it is empty or a coordinate does not fit the format's 32 bits.
+/// The outline as stored; `None` when it is empty or a coordinate does not fit the format's 32
+/// bits.
 pub(crate) fn stored_outline(lowered: &LoweredOutline, rule: FillRule) -> Option<SourceOutline> {
     let segments: Option<Vec<SourceSegment>> = lowered.segments.iter().map(segment).collect();
     Some(SourceOutline {

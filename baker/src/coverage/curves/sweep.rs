@@ -1,8 +1,8 @@
 //! Cutting a lowered outline to every cell that it crosses or fills.
 //!
-//! Rows of cells are swept from left to right. Segments wait until a box reaches them, are active while
-//! they meet boxes, and have passed when they lie to the left of all boxes to come. Passed segments
-//! are never looked at again: they stay as steps in a running sum.
+//! Rows of cells are swept from left to right. Segments wait until a box reaches them, are active
+//! while they meet boxes, and have passed when they lie to the left of all boxes to come. Passed
+//! segments are never looked at again: they stay as steps in a running sum.
 
 use std::ops::Range;
 
@@ -46,8 +46,8 @@ impl CutParams {
         CellBox::of_cell([column, row], self.lattice, self.flatness_units)
     }
 
-    /// The cells along an axis of `count` cells whose boxes overlap `[low, high]`. Boxes that only touch
-    /// an end of it are left out.
+    /// The cells along an axis of `count` cells whose boxes overlap `[low, high]`. Boxes that only
+    /// touch an end of it are left out.
     fn cells_along(&self, low: f64, high: f64, count: u32) -> Range<u32> {
         let first = (low - self.margin()) / self.cell_units();
         let end = (high + self.margin()) / self.cell_units();
@@ -69,6 +69,7 @@ pub(crate) fn cut_to_cells(outline: &LoweredOutline, params: &CutParams) -> Shap
     let [_, row_count] = params.size_cells;
     let mut by_row: Vec<Vec<Segment>> = vec![Vec::new(); row_count as usize];
     for segment in &outline.segments {
+        // A segment goes to every row whose boxes it reaches; boxes overlap by two margins.
         let rows = params.cells_along(segment.start.y, segment.end.y, row_count);
         for row in rows {
             by_row[row as usize].push(segment.into());
@@ -76,6 +77,8 @@ pub(crate) fn cut_to_cells(outline: &LoweredOutline, params: &CutParams) -> Shap
     }
     let mut shape = ShapeCurves::default();
     for (row, mut segments) in (0_u32..).zip(by_row) {
+        // Stable, so that equal keys keep the order of the outline: the bytes must not depend on
+        // the sort.
         segments.sort_by(|a, b| a.x_min().total_cmp(&b.x_min()));
         cut_row(&segments, row, params, &mut shape);
     }
@@ -95,10 +98,12 @@ fn cut_row(segments: &[Segment], row: u32, params: &CutParams, shape: &mut Shape
     for column in params.cells_along(low, high, params.size_cells[0]) {
         let cell = params.box_of(column, row);
         let right = cell.origin.x + cell.size;
+        // Strictly left of the right border: what only touches it is to the right.
         while let Some(segment) = waiting.next_if(|s| s.x_min() < right) {
             active.push(segment);
         }
         active.retain(|segment| {
+            // Nothing to the left of this box can reach a later one.
             let keep = segment.x_max() > cell.origin.x;
             if !keep {
                 passed.add(segment, &cell);
@@ -106,6 +111,7 @@ fn cut_row(segments: &[Segment], row: u32, params: &CutParams, shape: &mut Shape
             keep
         });
         let index = row * params.size_cells[0] + column;
+        // Steps of everything to the left, then what is in the box.
         let mut curves = passed.clone();
         for segment in &active {
             curves.add(segment, &cell);

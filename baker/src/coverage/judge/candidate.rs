@@ -8,9 +8,9 @@ use crate::{
 
 /// Quanta of a stored distance over its range: a texel holds a byte.
 pub(super) const QUANTA: f64 = 255.0;
-/// How far rounding to bytes alone displaces an edge, in quanta, at the 99th percentile. It is 0.5 at
-/// most. Measured: 0.498 and more on squares at 60 angles; less for outlines that happen to lie on
-/// the lattice. A lattice on which even this exceeds the bound is not tried.
+/// How far rounding to bytes alone displaces an edge, in quanta, at the 99th percentile. It is 0.5
+/// at most. Measured: 0.498 and more on squares at 60 angles; less for outlines that happen to lie
+/// on the lattice. A lattice on which even this exceeds the bound is not tried.
 pub(super) const ROUNDING_QUANTA: f64 = 0.4;
 
 /// An MSDF lattice with what its error depends on.

@@ -63,9 +63,10 @@ struct Choice {
 
 /// Judges every shape at the sizes that may pay and takes what costs least.
 ///
-/// Measuring is slow, estimating is fast. The least that a size can cost is known before anything is
-/// measured: every shape is then the kind that is cheaper. Sizes are measured from the most promising
-/// on, until the next could not beat the best so far. The first is always measured, for the report.
+/// Measuring is slow, estimating is fast. The least that a size can cost is known before anything
+/// is measured: every shape is then the kind that is cheaper. Sizes are measured from the most
+/// promising on, until the next could not beat the best so far. The first is always measured, for
+/// the report.
 pub(super) fn choose(
     drawing: &Drawing,
     config: &BakeConfig,
@@ -77,6 +78,7 @@ pub(super) fn choose(
         .map(|candidate| (choosing.least_cost(candidate), candidate))
         .collect();
     promises.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // The cost of curves relative to itself is 2: a share of 1 in bytes and of 1 in time.
     let curves = WORTHWHILE * choosing.whole.relative_to(choosing.whole);
     let mut best: Option<Choice> = None;
     for (promise, candidate) in promises {
@@ -97,6 +99,7 @@ pub(super) fn choose(
             msdf_size: config.msdf_size,
         };
     };
+    // The trials stay for the report even if no MSDF is used.
     if best.cost >= curves {
         best.fields.fill(false);
     }
@@ -172,6 +175,8 @@ impl Choosing {
         let cost_of = |(subject, &may_be_field): (&Option<Subject>, &bool)| {
             let subject = subject.as_ref()?;
             let [field, curves] = subject.costs(candidate);
+            // A shape takes the cheaper kind, so the sum is a lower bound while nothing is known to
+            // fail.
             let is_field = may_be_field && subject.pays_as_field(candidate, self.whole);
             Some(if is_field { field } else { curves })
         };
@@ -234,7 +239,10 @@ impl Subject {
             size_texels: placed.size_texels(),
             measured,
         };
+        // The transform scales both axes alike, because cells are square in user units.
         let units_per_step = candidate.lattice.lattice_from_canvas.as_coeffs()[0].recip();
+        // Without contours that are free of overlaps distances have no sign. No measurement is
+        // needed.
         if self.prepared.note == Note::Failed {
             return trial(Finding::Overlaps, None);
         }
@@ -262,6 +270,7 @@ fn verdict(trial: Option<Trial>, field: bool) -> Verdict {
             Coverage::Curves
         },
         finding: match trial.finding {
+            // The MSDF would have been good enough, so it was the cost.
             Finding::None if !field => Finding::Cost,
             finding => finding,
         },

@@ -1,8 +1,8 @@
 //! What a kind of coverage costs: bytes in the file and time of a lookup.
 //!
 //! Both follow from how many cells list a shape and how many segments those cells hold. The counts
-//! are estimated from the outline's length, width and number of segments, so that many lattice sizes
-//! can be compared without cutting anything.
+//! are estimated from the outline's length, width and number of segments, so that many lattice
+//! sizes can be compared without cutting anything.
 
 use kurbo::{Affine, BezPath, Rect, Shape as _};
 
@@ -115,10 +115,12 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// The extent of an outline on a canvas whose longer side is `longer_side_px` pixels at the largest zoom.
+    /// The extent of an outline on a canvas whose longer side is `longer_side_px` pixels at the
+    /// largest zoom.
     pub(super) fn new(outline: &BezPath, canvas_size: [f64; 2], longer_side_px: f64) -> Self {
         let canvas = Rect::new(0.0, 0.0, canvas_size[0], canvas_size[1]);
         let tolerance = 1e-3 * canvas.width().max(canvas.height());
+        // The whole outline gives the width; only the part on the canvas is stored and looked up.
         let (mut whole, mut length) = (0.0, 0.0);
         let contours = flatten(outline, tolerance);
         for contour in &contours {
@@ -131,6 +133,7 @@ impl Extent {
         if length <= 0.0 {
             return Self::default();
         }
+        // Lower it as records would, only to count the segments.
         let px = longer_side_px / canvas.width().max(canvas.height());
         let lowered =
             LoweredOutline::new(&(Affine::scale(px / UNIT_PX) * outline), TOLERANCE_UNITS);
@@ -153,9 +156,13 @@ impl Extent {
         let units_per_step = self.units_per_step(lattice);
         let cell = lattice.cell_steps() * units_per_step;
         let side = 1.0 + 2.0 * margin / lattice.cell_steps();
+        // 0 for a hairline, whose two edges share all squares; 1 for a shape wider than a square.
         let thickness = (self.width / (side * cell)).min(1.0);
         let length = self.length / cell * 0.5 * (1.0 + thickness);
+        // Each contour is a closed line of its own, so each adds the square that it starts in.
         let along = self.contours * side * side + CROSSINGS * side * length;
+        // No more than the cells under the box of the shape: a dense outline meets the same cells
+        // often.
         let [columns, rows] = [self.visible.width(), self.visible.height()];
         along.min((columns / cell + side) * (rows / cell + side))
     }
@@ -171,6 +178,7 @@ impl Extent {
             return Cost::default();
         }
         let listed = self.listed_cells(lattice, candidate.scales.distances.margin);
+        // A tile repeats the texels of its border.
         let texels = (lattice.cell_steps() + 1.0).powi(2);
         Cost {
             bytes: listed * (RATES.entry_bytes + RATES.texel_bytes * texels),

@@ -1,8 +1,8 @@
 //! The error of a shape's MSDF: how far it displaces the edge, and where.
 //!
 //! The tiles of the shape are rendered as the file would store them and interpolated as evaluators
-//! do. Probes along the edge ask how far away the field changes its sign; probes on both sides and all
-//! over the cells ask whether the sign is right.
+//! do. Probes along the edge ask how far away the field changes its sign; probes on both sides and
+//! all over the cells ask whether the sign is right.
 
 use kurbo::{BezPath, Line, ParamCurve, PathSeg, Point, Vec2};
 use rayon::prelude::*;
@@ -24,8 +24,8 @@ pub(super) const WRONG_SHARE_BOUND: f64 = 1e-3;
 /// Distance between probes along the outline, in steps. Texels are one step apart. It grows where
 /// there would be more than [`MAX_PROBES`].
 const PROBE_STEPS: f64 = 0.25;
-/// Most probes of one shape: bounds the time for long outlines. A 99th percentile of as many rests on
-/// the 600 largest errors.
+/// Most probes of one shape: bounds the time for long outlines. A 99th percentile of as many rests
+/// on the 600 largest errors.
 const MAX_PROBES: f64 = 65_536.0;
 /// Most errors whose cause is determined, spread over all errors.
 const MAX_CAUSES: usize = 1024;
@@ -45,8 +45,8 @@ const SLIVER_SHARE: f64 = 0.1;
 const FLATTEST_SLOPE: f64 = 0.25;
 /// Thickness of a shape or gap, in steps, below which its two edges share texels.
 const THIN_STEPS: f64 = 1.5;
-/// Errors nearer than this to a sharp corner are attributed to it. A corner of 20 degrees is thinner
-/// than [`THIN_STEPS`] up to this distance.
+/// Errors nearer than this to a sharp corner are attributed to it. A corner of 20 degrees is
+/// thinner than [`THIN_STEPS`] up to this distance.
 const CUSP_REACH_STEPS: f64 = 4.0;
 /// Cosine of the largest angle of a sharp corner: 30 degrees.
 const CUSP_COSINE: f64 = 0.866;
@@ -98,6 +98,7 @@ impl<'a> Field<'a> {
         let Candidate {
             lattice, scales, ..
         } = candidate;
+        // Exactly the tiles that the bake would store if the shape were alone.
         let cells = classify(placed, lattice, scales.distances);
         let tile = |&cell: &u32| {
             let shapes = vec![cells.tile_shape(cell, &placed.region)];
@@ -132,10 +133,13 @@ impl<'a> Field<'a> {
             error_px,
             ..
         } = *self.candidate;
+        // From pixels at the largest zoom to steps of the lattice.
         let stand_off = STAND_OFF * error_px / px_per_step;
         let tolerance = FOLLOW_SHARE * error_px / px_per_step;
         let sliver = SLIVER_SHARE * error_px / px_per_step;
         for (p, normal) in probes(&self.placed.outline, tolerance) {
+            // The outline passes here only if the two sides differ. They do not where contours
+            // overlap or where a sliver is too thin to see.
             let sides = [p + sliver * normal, p - sliver * normal];
             let [left, right] = sides.map(|p| self.placed.region.contains(p));
             let Some(distance) = self.distance(p).filter(|_| left != right) else {
@@ -173,8 +177,8 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Probes all over the cells that the edge crosses, one between every four texels: the median of
-    /// three channels can have the wrong sign far from any edge.
+    /// Probes all over the cells that the edge crosses, one between every four texels: the median
+    /// of three channels can have the wrong sign far from any edge.
     fn probe_cells(&self, tally: &mut Tally) {
         let lattice = &self.candidate.lattice;
         let columns = lattice.grid.size_cells[0];
@@ -199,8 +203,8 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Whether the stored `distance` at `p` has the wrong sign and `p` is further from the edge than
-    /// the bound on the error.
+    /// Whether the stored `distance` at `p` has the wrong sign and `p` is further from the edge
+    /// than the bound on the error.
     fn is_wrong(&self, p: Point, distance: f64) -> bool {
         if (distance > 0.0) == self.placed.region.contains(p) {
             return false;
@@ -211,17 +215,19 @@ impl<'a> Field<'a> {
         lines.all(|line| line_line_distance(line, Line::new(p, p)) > bound)
     }
 
-    /// Steps from the edge at `p` to the place where the field changes its sign. The field at `p` is
-    /// `distance`: if that is outside, the walk goes inwards, else outwards. It ends at the middle of
-    /// the shape or of the gap, because beyond it the next edge answers. If the sign has not changed
-    /// by then, the two edges have merged, and the middle is the result.
+    /// Steps from the edge at `p` to the place where the field changes its sign. The field at `p`
+    /// is `distance`: if that is outside, the walk goes inwards, else outwards. It ends at the
+    /// middle of the shape or of the gap, because beyond it the next edge answers. If the sign has
+    /// not changed by then, the two edges have merged, and the middle is the result.
     fn displacement(&self, p: Point, distance: f64, inwards: Vec2) -> f64 {
         let grown = distance > 0.0;
         let along = if grown { -inwards } else { inwards };
+        // Squares of even fractions: the first stride is 1/4096 of the reach.
         let spans = (1..=WALK_STRIDES)
             .map(|k| WALK_REACH_STEPS * (f64::from(k) / f64::from(WALK_STRIDES)).powi(2));
         let next_edge = |s: f64| self.placed.region.contains(p + s * along) == grown;
         let next = spans.clone().find(|&s| next_edge(s));
+        // Half way to the next edge, if there is one within reach.
         let most = next.map_or(WALK_REACH_STEPS, |s| 0.5 * s);
         let changes = |s: f64| {
             self.distance(p + s * along)
@@ -236,6 +242,7 @@ impl<'a> Field<'a> {
         let cusps = cusps(&self.placed.outline);
         let near_cusp = |p: Point| cusps.iter().any(|c| (*c - p).hypot() < CUSP_REACH_STEPS);
         let (mut at_cusps, mut thin) = (0, 0);
+        // Ask an even selection, because near a bad corner errors are many and alike.
         let every = errors.len().div_ceil(MAX_CAUSES).max(1);
         let asked = errors.iter().step_by(every);
         for &(p, normal) in asked.clone() {
@@ -246,6 +253,7 @@ impl<'a> Field<'a> {
             }
         }
         match asked.len() {
+            // The largest group names the cause, unless most errors have none of these.
             0 => Finding::None,
             all if 2 * at_cusps >= all && at_cusps >= thin => Finding::Cusp,
             all if 2 * (thin + at_cusps) >= all => Finding::ThinFeature,
@@ -257,6 +265,7 @@ impl<'a> Field<'a> {
     fn is_thin(&self, p: Point, normal: Vec2) -> bool {
         [normal, -normal].into_iter().any(|outwards| {
             let at = |steps: f64| self.placed.region.contains(p + steps * outwards);
+            // Just outside the edge against further out: they differ if another edge lies between.
             at(0.05) != at(THIN_STEPS)
         })
     }
@@ -272,8 +281,8 @@ impl<'a> Field<'a> {
         u32::try_from(cell).ok()
     }
 
-    /// The distance at `p` in steps, positive inside, interpolated as evaluators do; `None` beside the
-    /// canvas and where the shape has no tile.
+    /// The distance at `p` in steps, positive inside, interpolated as evaluators do; `None` beside
+    /// the canvas and where the shape has no tile.
     fn distance(&self, p: Point) -> Option<f64> {
         let lattice = &self.candidate.lattice;
         let cell = self.cell_at(p)?;
@@ -282,6 +291,7 @@ impl<'a> Field<'a> {
         let [column, row] = [p.x / n, p.y / n].map(floor_index);
         let side = lattice.grid.texels_per_cell as usize + 1;
         let q = [p.x - count(column) * n, p.y - count(row) * n];
+        // The last texel of the tile is only ever the far end of an interpolation.
         let [x, y] = q.map(|v| floor_index(v).min(side - 2));
         let [fx, fy] = [q[0] - count(x), q[1] - count(y)];
         let channel = |i: usize| {
@@ -290,6 +300,7 @@ impl<'a> Field<'a> {
             row(y) * (1.0 - fy) + row(y + 1) * fy
         };
         let [r, g, b] = [0, 1, 2].map(channel);
+        // Evaluators use the same median; it rebuilds sharp corners from three smooth fields.
         let median = r.min(g).max(r.max(g).min(b));
         Some((median / 255.0 - 0.5) * self.candidate.scales.range)
     }
@@ -315,6 +326,7 @@ fn probes(outline: &BezPath, tolerance: f64) -> Vec<(Point, Vec2)> {
             probes.push((line.p0 + along * (at / length), normal));
             at += spacing;
         }
+        // What is left of the spacing carries over to the next line.
         at -= length;
     }
     probes
@@ -329,6 +341,7 @@ fn cusps(outline: &BezPath) -> Vec<Point> {
         if let (Some(before), Some(after)) = (before, after)
             && before.end() == after.start()
         {
+            // Not at the ends themselves, where a handle may have no length.
             let [back, on] = [-tangent(&before, 0.99), tangent(&after, 0.01)].map(Vec2::normalize);
             if back.dot(on) > CUSP_COSINE {
                 cusps.push(after.start());
@@ -336,6 +349,7 @@ fn cusps(outline: &BezPath) -> Vec<Point> {
         }
     };
     for segment in outline.segments() {
+        // A segment that does not start where the last one ended begins a contour.
         let continues = last.is_some_and(|last| last.end() == segment.start());
         if continues {
             visit(last, Some(segment));

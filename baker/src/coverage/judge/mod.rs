@@ -2,8 +2,8 @@
 //!
 //! A shape becomes an MSDF if its error is within the bound and it costs less than curves. The size
 //! of the MSDF lattice is decided too, because all shapes share it. The error is measured on the
-//! tiles themselves, against exact inside tests ([`measure`]); the cost is estimated from the outline
-//! ([`cost`]); [`choose`] weighs them. Decision 0008 has the reasons and figures.
+//! tiles themselves, against exact inside tests ([`measure`]); the cost is estimated from the
+//! outline ([`cost`]); [`choose`] weighs them. Decision 0008 has the reasons and figures.
 
 use vtex_format::Finding;
 
@@ -52,8 +52,8 @@ pub(crate) fn judge(drawing: &Drawing, config: &BakeConfig) -> Judgement {
     choose::choose(drawing, config, &candidates)
 }
 
-/// The sizes to try: 32, 48, 64, 96, 128, ... and `largest`, ascending. A size is that of the canvas'
-/// longer side.
+/// The sizes to try: 32, 48, 64, 96, 128, ... and `largest`, ascending. A size is that of the
+/// canvas' longer side.
 fn sizes(largest: u32) -> Vec<u32> {
     let doubled = std::iter::successors(Some(SMALLEST_SIZE), |size| size.checked_mul(2));
     let mut sizes: Vec<u32> = doubled

@@ -137,8 +137,8 @@ fn is_clear(truth: &Region, p: Point, reach: f64) -> bool {
     })
 }
 
-/// How far from the edge at `p` the picture changes: inwards where `p` is not filled, else outwards.
-/// An edge that vanished has met the next one, of the shape or of a gap in it, halfway.
+/// How far from the edge at `p` the picture changes: inwards where `p` is not filled, else
+/// outwards. An edge that vanished has met the next one, of the shape or of a gap in it, halfway.
 fn displacement(
     filled: &impl Fn(Point) -> bool,
     truth: &Region,

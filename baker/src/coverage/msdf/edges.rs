@@ -17,9 +17,9 @@ use crate::geometry::{flatten_segment, set_end, set_start};
 const COLLAPSE_TEXELS: f64 = 0.05;
 /// Sine of the smallest turn that counts as a corner: msdfgen's default angle of 3 rad.
 const CORNER_SINE: f64 = 0.14;
-/// How far quadratics may be from the cubic that they replace, in texels: a quarter of what a stored
-/// byte resolves. fdsm measures quadratics in closed form, but cubics by 20 Newton steps, which are
-/// slower and may miss the nearest point.
+/// How far quadratics may be from the cubic that they replace, in texels: a quarter of what a
+/// stored byte resolves. fdsm measures quadratics in closed form, but cubics by 20 Newton steps,
+/// which are slower and may miss the nearest point.
 const QUAD_TOLERANCE_TEXELS: f64 = 4e-3;
 /// How far [`Edge::lines`] may be from their segment, in texels.
 const LINE_TOLERANCE_TEXELS: f64 = 0.02;
@@ -66,6 +66,7 @@ pub(crate) fn edges_of(outline: &BezPath) -> Vec<Edge> {
         outline.clone()
     };
     let mut edges = Vec::new();
+    // The index seeds the colouring, so equal outlines get equal colours in every bake.
     for (index, contour) in (0_u64..).zip(split_contours(&turned)) {
         let segments = collapse(&contour);
         // The rest of a collapsed contour: fewer than two segments enclose next to nothing.
@@ -82,9 +83,9 @@ pub(crate) fn edges_of(outline: &BezPath) -> Vec<Edge> {
 /// Colours of two channels. Any two of them share one channel.
 const TWO_CHANNELS: [Color; 3] = [Color::CYAN, Color::MAGENTA, Color::YELLOW];
 
-/// fdsm's "simple" colouring with a seed that differs by contour: the two contours of a thin ring must
-/// get different colours, or their distances mix. For the same reason a contour without corners,
-/// which fdsm makes white, gets a colour of two channels here.
+/// fdsm's "simple" colouring with a seed that differs by contour: the two contours of a thin ring
+/// must get different colours, or their distances mix. For the same reason a contour without
+/// corners, which fdsm makes white, gets a colour of two channels here.
 fn color_contour(segments: &[PathSeg], index: u64) -> Vec<ColoredSegment> {
     let contour = Contour {
         segments: segments.iter().map(to_fdsm).collect(),
@@ -122,6 +123,7 @@ fn collapse(contour: &[PathSeg]) -> Vec<PathSeg> {
     let Some(start) = contour.first().map(ParamCurve::start) else {
         return kept;
     };
+    // A dropped segment is bridged by the next one kept, which starts where the last one ended.
     let mut from = start;
     for segment in contour {
         let mut moved = *segment;
@@ -132,8 +134,10 @@ fn collapse(contour: &[PathSeg]) -> Vec<PathSeg> {
         }
     }
     if let Some(last) = kept.last_mut() {
+        // The last segment closes the contour.
         set_end(last, start);
     }
+    // Moving an end may have left a segment without length.
     kept.retain(|segment| control_length(segment) > 0.0);
     kept.into_iter().map(mend_handles).collect()
 }
@@ -147,8 +151,8 @@ fn control_length(segment: &PathSeg) -> f64 {
     }
 }
 
-/// Turns handles shorter than [`COLLAPSE_TEXELS`] towards the next control point. The direction at an
-/// end is then the one in which the curve really leaves, not that of a tiny handle.
+/// Turns handles shorter than [`COLLAPSE_TEXELS`] towards the next control point. The direction at
+/// an end is then the one in which the curve really leaves, not that of a tiny handle.
 fn mend_handles(segment: PathSeg) -> PathSeg {
     match segment {
         PathSeg::Line(_) => segment,
@@ -191,6 +195,7 @@ fn push_quads(colored: ColoredSegment, edges: &mut Vec<Edge>) {
     let edge = Edge { segment: colored };
     match edge.curve() {
         PathSeg::Cubic(cubic) => {
+            // All pieces keep the colour: there is no corner between them.
             let quads = cubic.to_quads(QUAD_TOLERANCE_TEXELS);
             edges.extend(quads.map(|(_, _, quad)| Edge {
                 segment: ColoredSegment {

@@ -59,8 +59,9 @@ pub(crate) struct TileSpec<'a> {
     pub(crate) steps: u32,
     /// Full width of the stored distances, in steps.
     pub(crate) range: f64,
-    /// Edges further away than this many steps count as infinitely far. The rule is the same in every
-    /// tile, so neighbouring tiles agree on the texels that they share. At least half the range.
+    /// Edges further away than this many steps count as infinitely far. The rule is the same in
+    /// every tile, so neighbouring tiles agree on the texels that they share. At least half the
+    /// range.
     pub(crate) reach: f64,
     /// The shapes. They do not meet, except after a forced merge.
     pub(crate) shapes: Vec<TileShape<'a>>,
@@ -68,6 +69,7 @@ pub(crate) struct TileSpec<'a> {
 
 /// The RGBA8 texels of the tile, row by row.
 pub(crate) fn render_tile(spec: &TileSpec<'_>) -> Vec<u8> {
+    // fdsm measures all edges of a contour alike, so the edges of all shapes may form one.
     let contour = ColoredContour {
         segments: spec
             .shapes
@@ -98,6 +100,7 @@ fn texel(spec: &TileSpec<'_>, edges: &PreparedColoredShape, column: u32, row: u3
         .iter()
         .any(|shape| shape.rows.contains(shape.region, column, row));
     let p = Point2::new(f64::from(column), f64::from(row));
+    // Without an edge in reach a channel holds the end of the range on the right side.
     let far = if inside { spec.range } else { -spec.range };
     let stored = edges.distance3(p).map(|nearest| {
         let distance = channel_distance(&nearest, p, spec.reach).unwrap_or(far);
@@ -119,6 +122,7 @@ fn channel_distance(
     reach: f64,
 ) -> Option<f64> {
     let near = nearest.value.distance_squared.abs() <= reach * reach;
+    // fdsm divides by lengths that may be 0.
     let distance = near.then(|| nearest.signed_pseudo_distance(p))?;
     distance.is_finite().then_some(distance)
 }

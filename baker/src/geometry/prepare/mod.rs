@@ -96,6 +96,7 @@ fn first_that_agrees(
     outline: &BezPath,
     rule: FillRule,
 ) -> Option<(usize, BezPath)> {
+    // An empty outline needs no method.
     if outline.elements().is_empty() {
         return Some((0, BezPath::new()));
     }
@@ -122,6 +123,7 @@ fn clean_contours(outline: &BezPath) -> BezPath {
         let (Some(first), Some(last)) = (segments.first(), segments.last()) else {
             continue;
         };
+        // Dropping segments of no length leaves no gap: their ends coincide.
         let (start, end) = (first.start(), last.end());
         if !contour.is_finite() {
             continue;

@@ -11,8 +11,8 @@ use crate::{drawing::FillRule, geometry::flatten};
 /// How far a simplification may move an edge, in units of a 1024th of the canvas. Measured: smaller
 /// values take longer and leave slivers; larger ones can be seen at zoom 64.
 pub(super) const SIMPLIFY_EPS: f64 = 1e-4;
-/// How far flattening for the second method may move an edge, in the same units: a tenth of what one
-/// byte of distance resolves on a lattice of 1024 texels.
+/// How far flattening for the second method may move an edge, in the same units: a tenth of what
+/// one byte of distance resolves on a lattice of 1024 texels.
 const FLATTEN_EPS: f64 = 1e-3;
 
 /// The boundary of what an outline fills by a rule; `None` on failure.
@@ -47,6 +47,7 @@ pub(super) fn by_overlay(outline: &BezPath, rule: FillRule) -> Option<BezPath> {
     let shapes = catch_unwind(AssertUnwindSafe(|| contours.simplify_shape_as::<i64>(rule))).ok()?;
     let mut simple = BezPath::new();
     for contour in shapes.iter().flatten() {
+        // `i_overlay` gives points without the closing one.
         let mut points = contour.iter().map(|&[x, y]| Point::new(x, y));
         let Some(first) = points.next() else { continue };
         simple.move_to(first);

@@ -13,8 +13,8 @@ use crate::{
 const AREA_POINTS: u32 = 64;
 /// Places along the edge at which points on both sides are compared, spread over its segments.
 const EDGE_POINTS: usize = 256;
-/// Distance of those points from the edge, in the units of simplification. Nearer points may differ,
-/// because a method may move the edge.
+/// Distance of those points from the edge, in the units of simplification. Nearer points may
+/// differ, because a method may move the edge.
 const STAND_OFF: f64 = 100.0 * SIMPLIFY_EPS;
 /// Distance from the drawing's edges within which the two may differ.
 const NEAR: f64 = 20.0 * SIMPLIFY_EPS;
@@ -32,6 +32,7 @@ pub(super) fn agrees(outline: &BezPath, rule: FillRule, simple: &BezPath) -> boo
         let [u, v] = spread_point(k);
         Point::new(area.x0 + u * area.width(), area.y0 + v * area.height())
     });
+    // Near an edge both answers are right, because the edge may have moved.
     let same = |p: Point| before.contains(p) == after.contains(p) || near_edge(outline, p);
     spread.chain(beside_edges(outline)).all(same)
 }
@@ -54,6 +55,7 @@ fn beside_edges(outline: &BezPath) -> impl Iterator<Item = Point> {
 /// A point on each side of a segment; `None` where the segment has no direction.
 fn beside(segment: &PathSeg, t: f64) -> Option<[Point; 2]> {
     let tangent = tangent(segment, t);
+    // A segment without direction gives NaN here.
     let across = STAND_OFF * Vec2::new(-tangent.y, tangent.x).normalize();
     let p = segment.eval(t);
     across.is_finite().then_some([p + across, p - across])

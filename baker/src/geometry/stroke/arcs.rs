@@ -16,8 +16,8 @@ const ALIKE: f64 = 1e-6;
 /// `radius`.
 pub(super) fn refine(outline: &BezPath, line: &BezPath, radius: f64, tolerance: f64) -> BezPath {
     let corners = Corners::new(line, radius);
-    // Cubics in a full circle, by the formula of kurbo's own conversion of arcs: the error falls with
-    // the sixth power of their number.
+    // Cubics in a full circle, by the formula of kurbo's own conversion of arcs: the error falls
+    // with the sixth power of their number.
     let pieces = (1.1163 * radius / tolerance)
         .powf(1.0 / 6.0)
         .max(4.0)
@@ -81,14 +81,19 @@ impl Corners {
     /// The arc that `cubic` approximates: part of a circle of `radius` around a corner.
     fn arc(&self, cubic: CubicBez, radius: f64) -> Option<Arc> {
         let [start, end] = [cubic.p1 - cubic.p0, cubic.p3 - cubic.p2];
+        // The centre lies one radius from the start, at right angles to the tangent, on the side to
+        // which the curve turns.
         let inward = Vec2::new(-start.y, start.x) * (radius / start.hypot());
         let turn = start.cross(end);
         let inward = if turn < 0.0 { -inward } else { inward };
         let center = self.near(cubic.p0 + inward)?;
+        // A centre that is a point of the line was found. Check the rest of the cubic against its
+        // circle.
         let [from, to] = [cubic.p0 - center, cubic.p3 - center];
         let on_circle = |v: Vec2| (v.hypot() - radius).abs() <= self.slack;
         // kurbo puts the middle within a thousandth of the radius; twice that is accepted.
         let middle = (cubic.eval(0.5) - center).hypot();
+        // The tangent at the end must be at right angles to the radius too.
         let along = end.dot(to).abs() <= self.slack * end.hypot();
         let round = on_circle(from) && on_circle(to) && along;
         let close = (middle - radius).abs() <= 2e-3 * radius;

@@ -62,6 +62,7 @@ pub(crate) fn expand(
     canvas_from_path: Affine,
     quality: StrokeQuality,
 ) -> Option<Expanded> {
+    // Work at the size at which the stroke will be seen, whatever the units of the path are.
     let scale = largest_scale(canvas_from_path) * WORK_UNITS / quality.canvas_longer_side;
     if !(scale.is_finite() && scale > 0.0) {
         return None;
@@ -83,9 +84,11 @@ pub(crate) fn expand(
     }
     let options = StrokeOpts::default();
     let mut outline = kurbo::stroke(line.iter(), &style.kurbo(), &options, tolerance);
+    // Only round joins and caps have arcs.
     if style.is_round() {
         outline = arcs::refine(&outline, &line, 0.5 * style.width, tolerance);
     }
+    // Back to the path's space, then to the canvas with whatever skew it has.
     let outline = canvas_from_path * work_from_path.inverse() * outline;
     outline.is_finite().then_some(Expanded { outline, opacity })
 }
@@ -93,6 +96,8 @@ pub(crate) fn expand(
 /// The larger singular value of the linear part: the most that the transform stretches a length.
 fn largest_scale(transform: Affine) -> f64 {
     let [a, b, c, d, _, _] = transform.as_coeffs();
+    // Eigenvalues of the matrix times its transpose; `max` because rounding may make the root
+    // negative.
     let sum = a * a + b * b + c * c + d * d;
     let determinant = a * d - b * c;
     let root = (sum * sum - 4.0 * determinant * determinant)
@@ -126,11 +131,13 @@ impl StrokeStyle {
     /// An even number of lengths in which every dash that shows has some length, or `None` for a
     /// continuous line.
     fn drawable_dashes(&self) -> Option<Vec<f64>> {
+        // SVG 2: negative lengths and a sum of 0 mean a continuous line.
         let valid = self.dashes.iter().all(|d| d.is_finite() && *d >= 0.0);
         if !valid || self.dashes.iter().sum::<f64>() <= 0.0 {
             return None;
         }
         let mut dashes = self.dashes.clone();
+        // SVG 2: an odd list is repeated once.
         if dashes.len() % 2 == 1 {
             dashes.extend_from_within(..);
         }
@@ -167,6 +174,7 @@ fn duty(dashes: &[f64]) -> f32 {
 fn with_dots(line: &BezPath, style: &StrokeStyle) -> BezPath {
     let mut out = BezPath::new();
     for subpath in subpaths(line) {
+        // A lone move paints nothing; a move and a close is a zero-length subpath.
         let Some(PathEl::MoveTo(start)) = subpath.first().copied() else {
             continue;
         };

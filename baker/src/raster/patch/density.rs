@@ -12,11 +12,11 @@ use crate::{
 
 /// Density when there is room.
 const FINEST_DENSITY: f64 = 8.0;
-/// Density below which a warning is due: such a patch is visibly blurred at little more than the zoom
-/// of mip 0.
+/// Density below which a warning is due: such a patch is visibly blurred at little more than the
+/// zoom of mip 0.
 pub(super) const WANTED_DENSITY: f64 = 4.0;
-/// Texels along the longer side of a patch, without up to three of its border. A square of that size
-/// takes 21 MiB with its mips.
+/// Texels along the longer side of a patch, without up to three of its border. A square of that
+/// size takes 21 MiB with its mips.
 const MAX_PATCH_SIDE: f64 = 2048.0;
 /// Texels of level 0 of all patches of a file together: 32 MiB with their mips.
 pub(super) const MAX_PATCH_TEXELS: f64 = 6_291_456.0;
@@ -69,7 +69,8 @@ impl PatchSettings {
         Rect::new(0.0, 0.0, self.canvas_size[0], self.canvas_size[1])
     }
 
-    /// The largest density at which the patches of all `subtrees` together stay within their budget.
+    /// The largest density at which the patches of all `subtrees` together stay within their
+    /// budget.
     pub(super) fn common_density<'a, 'b: 'a>(
         self,
         subtrees: impl Iterator<Item = &'a Subtree<'b>>,
@@ -122,6 +123,7 @@ impl PatchSettings {
         let visible = subtree.bounds.intersect(self.canvas_rect());
         let cost = Cost::of_node(subtree.node, subtree.canvas_from_parent, self.canvas_size);
         let base = self.base_scale();
+        // resvg makes layers as large as the subtree, but not arbitrarily larger than the pixmap.
         let layer_area = subtree.bounds.width().min(LAYER_OVERHANG * visible.width())
             * subtree
                 .bounds
@@ -129,6 +131,7 @@ impl PatchSettings {
                 .min(LAYER_OVERHANG * visible.height());
         let layer_bytes = 4.0 * cost.layers * layer_area * base * base;
         let pattern_texels = cost.pattern_area * base * base;
+        // Memory grows with the square of the density.
         let for_layers = (MAX_LAYER_BYTES / layer_bytes.max(f64::MIN_POSITIVE)).sqrt();
         let for_patterns = (MAX_PATTERN_TEXELS / pattern_texels.max(f64::MIN_POSITIVE)).sqrt();
         self.density_for_side(visible)
@@ -137,8 +140,8 @@ impl PatchSettings {
             .min(cost.filter_density(base))
     }
 
-    /// Texels of the whole canvas at a density. They cover the canvas exactly, so they are not quite
-    /// square.
+    /// Texels of the whole canvas at a density. They cover the canvas exactly, so they are not
+    /// quite square.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -1,7 +1,7 @@
 //! Embedded images: they keep their own texels instead of being painted into a patch.
 //!
-//! resvg interpolates between texels by cubics or takes the nearest; lookups interpolate linearly. So
-//! a small image is first enlarged by resvg, and the texels of the result are stored.
+//! resvg interpolates between texels by cubics or takes the nearest; lookups interpolate linearly.
+//! So a small image is first enlarged by resvg, and the texels of the result are stored.
 
 use kurbo::{Affine, Rect};
 use tiny_skia::Pixmap;
@@ -20,8 +20,8 @@ use crate::{
     svg::{Step, Subtree},
 };
 
-/// Texels of all embedded images of a file together: 32 MiB with their mips. Images beyond it become
-/// patches.
+/// Texels of all embedded images of a file together: 32 MiB with their mips. Images beyond it
+/// become patches.
 const MAX_TEXELS: u64 = 6_291_456;
 /// Texels that an image may be enlarged to.
 const MAX_ENLARGED_TEXELS: u64 = 1 << 20;
@@ -45,8 +45,8 @@ pub(super) struct Embedded {
 }
 
 impl Embedded {
-    /// `None` for a subtree that is no raster image, and for an image that is rotated or skewed: the
-    /// file's images are upright rectangles.
+    /// `None` for a subtree that is no raster image, and for an image that is rotated or skewed:
+    /// the file's images are upright rectangles.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -76,6 +76,7 @@ impl Embedded {
             | ImageRendering::Smooth
             | ImageRendering::HighQuality => MAX_SMOOTH,
         };
+        // A small image may be enlarged a lot, one of a million texels not at all.
         let enlarged = (MAX_ENLARGED_TEXELS / texels)
             .isqrt()
             .clamp(1, u64::from(most));
@@ -113,6 +114,8 @@ impl Embedded {
             size,
             texels: texels.iter().map(|&t| texel::linear_from_skia(t)).collect(),
         };
+        // resvg has painted it upright; the rectangle of an image cannot be mirrored, so its texels
+        // are.
         level0.mirror(self.mirrored);
         // The enlargement may have added nothing that linear lookups do not show.
         if self.enlarged > 1 {
@@ -158,10 +161,12 @@ fn share_out<'a>(images: impl Iterator<Item = &'a mut Option<Embedded>>) {
             .map(|image| image.enlarged_at_most(most).texels())
             .sum()
     };
+    // First less enlargement for all.
     let mut most = MAX_SHARP;
     while most > 1 && total(&images, most) > MAX_TEXELS {
         most -= 1;
     }
+    // Then first come, first served, in document order.
     let mut left = MAX_TEXELS;
     for image in &mut images {
         let kept = image.map(|image| image.enlarged_at_most(most));

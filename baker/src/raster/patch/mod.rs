@@ -1,7 +1,7 @@
 //! Patches: raster images of what no shape can be.
 //!
-//! Most are subtrees of the SVG that resvg paints ([`resvg`]), such as filters. A few are shapes that are
-//! too complex for curve records ([`skia`]). Embedded images keep their own texels instead
+//! Most are subtrees of the SVG that resvg paints ([`resvg`]), such as filters. A few are shapes
+//! that are too complex for curve records ([`skia`]). Embedded images keep their own texels instead
 //! ([`embedded`]).
 
 mod density;
@@ -29,7 +29,8 @@ pub(crate) use density::PatchSettings;
 /// Feature of a patch that stands for a shape too complex for curve records.
 pub(crate) const SHAPE_FEATURE: &str = "path";
 
-/// Turns the steps of a plan into the items of a drawing, in painter's order: subtrees become images.
+/// Turns the steps of a plan into the items of a drawing, in painter's order: subtrees become
+/// images.
 pub(crate) fn resolve(
     plan: Plan<'_>,
     settings: PatchSettings,
@@ -151,7 +152,8 @@ pub(crate) fn of_shape(shape: &Shape, settings: PatchSettings, share: f64) -> Op
     window.patch(pixmap, source)
 }
 
-/// The whole canvas as one patch, and a warning if it is coarse. `paint` makes the picture at a size.
+/// The whole canvas as one patch, and a warning if it is coarse. `paint` makes the picture at a
+/// size.
 pub(crate) fn whole_canvas(
     settings: PatchSettings,
     paint: impl FnOnce([u32; 2]) -> LinearImage,

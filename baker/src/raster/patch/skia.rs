@@ -80,6 +80,7 @@ fn paint_shape(shape: &Shape, view: View, pixmap: &mut Pixmap) {
     let Some(path) = skia_path(&shape.outline, transform) else {
         return;
     };
+    // Gradients are in uv, outlines in user units.
     let shader = match &shape.paint {
         drawing::Paint::Solid(color) => skia_color(*color).map(Shader::SolidColor),
         drawing::Paint::Gradient(it) => skia_gradient(it, view.texel_from_uv()),
@@ -88,6 +89,7 @@ fn paint_shape(shape: &Shape, view: View, pixmap: &mut Pixmap) {
         return;
     };
     let paint = Paint {
+        // As resvg paints.
         anti_alias: true,
         shader,
         ..Paint::default()

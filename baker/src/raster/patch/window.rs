@@ -82,6 +82,7 @@ impl Window {
     pub(super) fn patch(&self, mut pixmap: Pixmap, source: Source<'_>) -> Option<Patch> {
         self.clear_border(&mut pixmap);
         let shown = self.shown_part(&pixmap)?;
+        // Soft content such as a blurred shadow gets fewer texels.
         let level0 = detail::fitted(self.cropped(&pixmap, shown));
         let uv = |side: usize| f64::from(shown[side]) / f64::from(self.lattice[side % 2]);
         let rect_uv = [0, 1, 2, 3].map(uv);
@@ -95,8 +96,8 @@ impl Window {
         })
     }
 
-    /// Clears the outermost texels except along the edges of the canvas. A lookup at the border of the
-    /// patch interpolates with nothing, so it fades out, even if the bounds were too small.
+    /// Clears the outermost texels except along the edges of the canvas. A lookup at the border of
+    /// the patch interpolates with nothing, so it fades out, even if the bounds were too small.
     fn clear_border(&self, pixmap: &mut Pixmap) {
         let ([left, top, right, bottom], lattice) = (self.texels, self.lattice);
         let (width, height) = (pixmap.width() as usize, pixmap.height() as usize);
@@ -137,6 +138,7 @@ impl Window {
         let texel =
             |offset: usize, axis: usize| self.texels[axis] + u32::try_from(offset).unwrap_or(0);
         Some([
+            // One transparent texel more on each side, so that lookups fade out.
             texel(left, 0).saturating_sub(1),
             texel(top, 1).saturating_sub(1),
             (texel(right, 0) + 2).min(self.lattice[0]),

@@ -3,8 +3,8 @@
 
 use std::collections::BTreeMap;
 
-/// Upper bound on the bytes of the text with all entity references expanded. Declarations that are not
-/// understood count as empty: the XML parser refuses those.
+/// Upper bound on the bytes of the text with all entity references expanded. Declarations that are
+/// not understood count as empty: the XML parser refuses those.
 pub(crate) fn expanded_bytes(text: &str) -> usize {
     if !text.contains("<!ENTITY") {
         return text.len();
@@ -14,6 +14,7 @@ pub(crate) fn expanded_bytes(text: &str) -> usize {
         if let Some((name, value)) = declared(declaration) {
             // Only entities declared before count, because the parser refuses loops.
             let size = value.len().saturating_add(references(value, &sizes));
+            // XML: the first declaration of a name counts.
             sizes.entry(name).or_insert(size);
         }
     }

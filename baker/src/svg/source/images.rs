@@ -12,19 +12,19 @@ use super::{
 };
 use crate::{config::ImageReader, warning::Warnings};
 
-/// Most pixels of a raster image, by its header. A PNG that claims 60000 x 60000 would end the process
-/// when the decoder allocates memory. 64 Mpx are 256 MiB of RGBA.
+/// Most pixels of a raster image, by its header. A PNG that claims 60000 x 60000 would end the
+/// process when the decoder allocates memory. 64 Mpx are 256 MiB of RGBA.
 const MAX_IMAGE_PIXELS: u64 = 64 << 20;
 /// Most bytes of a nested SVG image.
 const MAX_NESTED_SVG_BYTES: usize = 16 << 20;
-/// Levels of SVG images inside SVG images. Real files have one. Each level is parsed on the stack of
-/// the level above.
+/// Levels of SVG images inside SVG images. Real files have one. Each level is parsed on the stack
+/// of the level above.
 const MAX_NESTED_LEVELS: usize = 4;
 /// Characters of a link that a warning quotes.
 const QUOTED_CHARS: usize = 80;
 
-/// A resolver that decodes data URLs and asks the reader, if there is one, for everything else. usvg's
-/// own resolver would read any local path.
+/// A resolver that decodes data URLs and asks the reader, if there is one, for everything else.
+/// usvg's own resolver would read any local path.
 pub(crate) fn resolver<'a>(
     warnings: &'a Warnings,
     reader: Option<&'a ImageReader>,
@@ -111,6 +111,7 @@ fn nested(data: &[u8], nest: Nest<'_>, outer: &Options<'_>) -> Result<ImageKind,
     if data.len() > MAX_NESTED_SVG_BYTES || nest.level >= MAX_NESTED_LEVELS {
         return Err("too large or too deeply nested".to_owned());
     }
+    // The same limits as for the outer text.
     let text = checked_text(data).map_err(|e| e.to_string())?;
     let options = Options {
         dpi: outer.dpi,

@@ -1,7 +1,7 @@
 //! From bytes to usvg's tree.
 //!
-//! Limits are checked first, on the text ([`text`], [`entities`]) and then on the tree ([`limits`]). usvg
-//! asks hooks for fonts and images; ours open no file ([`fonts`], [`images`]).
+//! Limits are checked first, on the text ([`text`], [`entities`]) and then on the tree
+//! ([`limits`]). usvg asks hooks for fonts and images; ours open no file ([`fonts`], [`images`]).
 
 mod entities;
 mod fonts;
@@ -20,8 +20,8 @@ pub use fonts::font_selector;
 /// Parses an SVG or SVGZ, at 96 dpi.
 ///
 /// # Errors
-/// [`BakeError::Svg`] for text that is no SVG with an area, [`BakeError::Limit`] for one that asks for
-/// too much.
+/// [`BakeError::Svg`] for text that is no SVG with an area, [`BakeError::Limit`] for one that asks
+/// for too much.
 pub(crate) fn parse(
     svg: &[u8],
     resources: &Resources,

@@ -24,9 +24,10 @@ enum Union {
 }
 
 impl Walker<'_, '_> {
-    /// The clips of a clip path and of the clip paths on it; a point must lie in all of them. `None` if
-    /// nothing can show. usvg gives the `clip-rule` as the rule of a fill.
+    /// The clips of a clip path and of the clip paths on it; a point must lie in all of them.
+    /// `None` if nothing can show. usvg gives the `clip-rule` as the rule of a fill.
     pub(super) fn clips(&mut self, path: &ClipPath, canvas_from_user: Affine) -> Option<Vec<Clip>> {
+        // A clip path on a clip path is intersected with it.
         let mut clips = match path.clip_path() {
             Some(outer) => self.clips(outer, canvas_from_user)?,
             None => Vec::new(),
@@ -56,6 +57,7 @@ impl Walker<'_, '_> {
                 Node::Path(path) if path.is_visible() => {
                     let Some(fill) = path.fill() else { continue };
                     let outline = canvas_from_group * close_subpaths(&bez_path(path.data()));
+                    // The usual clip of exporters: a rectangle around the page.
                     if self.holds_canvas(&outline) {
                         return Union::All;
                     }
@@ -64,6 +66,7 @@ impl Walker<'_, '_> {
                 }
                 Node::Text(text) => self.union(text.flattened(), canvas_from_group),
                 Node::Group(inner) => self.clipped_union(inner, canvas_from_group),
+                // Invisible paths and images do not clip.
                 Node::Path(_) | Node::Image(_) => continue,
             };
             match more {
@@ -95,6 +98,7 @@ impl Walker<'_, '_> {
             }
         };
         for part in &mut parts {
+            // The clips of the group apply to each of its parts.
             part.clips.extend(clips.iter().cloned());
         }
         Union::Parts(parts)

@@ -10,8 +10,8 @@ use crate::svg::path::{affine, transformed_bounds};
 const MAX_FOLDED_SHAPES: usize = 64;
 
 impl Walker<'_, '_> {
-    /// Whether folding the group gives the same picture. It does if the group holds only shapes and no
-    /// two of them overlap: with an overlap the lower shape would show through the upper one.
+    /// Whether folding the group gives the same picture. It does if the group holds only shapes and
+    /// no two of them overlap: with an overlap the lower shape would show through the upper one.
     pub(super) fn folds(&self, group: &Group) -> bool {
         let mut shapes = Vec::new();
         self.gather(group, Affine::IDENTITY, &mut shapes) && disjoint(&shapes)
@@ -28,6 +28,8 @@ impl Walker<'_, '_> {
                 let bounds = transformed_bounds(path.stroke_bounding_box(), transform);
                 let parts =
                     usize::from(path.fill().is_some()) + usize::from(path.stroke().is_some());
+                // Fill and stroke of a path overlap: with both the box is counted twice and meets
+                // itself.
                 shapes.extend(std::iter::repeat_n(bounds, parts));
                 shapes.len() <= MAX_FOLDED_SHAPES && self.foreign_paint(path).is_none()
             }

@@ -15,8 +15,8 @@ pub(super) fn has_too_many_stops(gradient: &usvg::BaseGradient) -> bool {
     gradient.stops().len() > MAX_GRADIENT_STOPS as usize
 }
 
-/// The paint of a linear gradient; `None` if it paints nothing. `uv_from_user` maps the space of the
-/// painted element.
+/// The paint of a linear gradient; `None` if it paints nothing. `uv_from_user` maps the space of
+/// the painted element.
 pub(super) fn linear(
     gradient: &usvg::LinearGradient,
     opacity: f32,
@@ -65,10 +65,12 @@ pub(super) fn radial(
     let mut distance = between.hypot() / radius;
     let mut focal_radius = f64::from(gradient.fr().get()) / radius;
     let mut angle = between.atan2();
+    // A focus at the centre: the angle between them means nothing.
     if distance < NOTHING {
         (distance, angle) = (0.0, 0.0);
         if (focal_radius - 1.0).abs() < NOTHING {
-            // Both circles are the same. As in tiny-skia: the first colour inside, the last outside.
+            // Both circles are the same. As in tiny-skia: the first colour inside, the last
+            // outside.
             if spread(gradient) != Spread::Pad {
                 return None;
             }
@@ -76,6 +78,7 @@ pub(super) fn radial(
             stops = ring(&stops)?;
         }
     }
+    // Into the space of the end circle: focus at the origin, centre on the x axis, radius 1.
     let circle_from_gradient =
         Affine::rotate(-angle) * Affine::scale(1.0 / radius) * Affine::translate(-focus.to_vec2());
     let circle_from_uv = (circle_from_gradient * gradient_from_uv).as_coeffs();
@@ -148,6 +151,7 @@ fn finished(shape: GradientShape, spread: Spread, stops: Vec<GradientStop>) -> O
         return solid(&stops);
     }
     let one_color = stops.windows(2).all(|pair| pair[0].color == pair[1].color);
+    // One colour everywhere; but some radial gradients leave points without a colour.
     if one_color && shape.leading() < 0.0 {
         return solid(&stops);
     }

@@ -39,17 +39,19 @@ impl Default for Effects {
 }
 
 impl<'a> Walker<'a, '_> {
-    /// Adds a group and what is in it. A filter that only changes colours is applied to the colours; any
-    /// other makes the group a subtree for resvg.
+    /// Adds a group and what is in it. A filter that only changes colours is applied to the
+    /// colours; any other makes the group a subtree for resvg.
     pub(super) fn group(&mut self, node: &'a Node, group: &'a Group, place: Place<'a>) {
         let mut place = place;
         if !group.filters().is_empty() {
+            // A change of colours inside another is left to resvg.
             let recolor = Recolor::of(group).filter(|_| place.recolor.is_none());
             if recolor.is_none() {
                 return self.filtered(node, group, place);
             }
             place.recolor = recolor;
         }
+        // Inside a folded group every opacity folds; an opacity of 1 always does.
         let folds = place.opacity < 1.0 || group.opacity() == usvg::Opacity::ONE;
         let folds = folds || self.folds(group);
         let own = group.opacity().get();
@@ -61,10 +63,13 @@ impl<'a> Walker<'a, '_> {
         let effects = Effects {
             opacity: if folds { 1.0 } else { own },
             blend: blend_mode(group.blend_mode()),
+            // A group whose blend mode sees its backdrop is composited as a whole. Isolation
+            // matters otherwise only if something inside could see through it.
             isolated: blends(group) || group.should_isolate() && holds_open_blend(group),
             ..Effects::default()
         };
         let grouped = effects.isolated || effects.opacity < 1.0 || group.mask().is_some();
+        // The rectangle of a mask is a clip too.
         let clips = group.clip_path().map_or(0, clip_depth) + u32::from(group.mask().is_some());
         let Some(inner) = inner.deeper(clips + u32::from(grouped)) else {
             return self.raster(node, place, "nesting");
@@ -91,8 +96,8 @@ impl<'a> Walker<'a, '_> {
         });
     }
 
-    /// Adds a group of the nodes that `walk` adds. `first` is its first item: items of its effects have
-    /// been added before the walk. Without any effect the nodes are added without a group.
+    /// Adds a group of the nodes that `walk` adds. `first` is its first item: items of its effects
+    /// have been added before the walk. Without any effect the nodes are added without a group.
     pub(super) fn add_group(&mut self, first: u32, effects: Effects, walk: impl FnOnce(&mut Self)) {
         let children = self.collected(walk);
         let group = tree::Group {
@@ -150,12 +155,14 @@ impl<'a> Walker<'a, '_> {
             .clips
             .extend(self.clip_to(outline, FillRule::NonZero)?);
         let first = self.next_item();
+        // The mask's picture is not part of the group: nothing of its surroundings applies.
         let place = Place {
             opacity: 1.0,
             recolor: None,
             ..place
         };
         let children = self.collected(|walker| walker.children(mask.root(), place));
+        // A mask that shows nothing weights with 0 everywhere.
         if children.is_empty() {
             return None;
         }
@@ -171,8 +178,8 @@ impl<'a> Walker<'a, '_> {
     }
 }
 
-/// How many jumps can be pending at once while the clip is tested and its group drawn: for each clip
-/// that contains another one past the group, and one past the rest of a union.
+/// How many jumps can be pending at once while the clip is tested and its group drawn: for each
+/// clip that contains another one past the group, and one past the rest of a union.
 fn clip_depth(clip: &usvg::ClipPath) -> u32 {
     let outer = clip.clip_path().map_or(0, clip_depth);
     2 + outer + nested_clip_depth(clip.root())

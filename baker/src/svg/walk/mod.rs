@@ -1,9 +1,10 @@
 //! The walk through usvg's tree, in painter's order.
 //!
-//! usvg has resolved styles, references and text already. The walk turns paths into shapes: it expands
-//! strokes ([`shapes`]) and patterns ([`pattern`]). Groups become groups of the drawing ([`group`],
-//! [`clip`]), unless their opacity can be multiplied into their shapes ([`fold`]). Whatever no shape can
-//! be is left to resvg as a subtree.
+//! usvg has resolved styles, references and text already. The walk turns paths into shapes: it
+//! expands strokes ([`shapes`]) and patterns ([`pattern`]). Groups become groups of the drawing
+//! ([`group`],
+//! [`clip`]), unless their opacity can be multiplied into their shapes ([`fold`]). Whatever no
+//! shape can be is left to resvg as a subtree.
 
 mod clip;
 mod fold;

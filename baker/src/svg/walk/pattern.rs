@@ -1,8 +1,8 @@
 //! Expanding patterns: every tile that shows becomes outlines.
 //!
-//! A painted shape becomes a group that is clipped to the shape and holds all tiles under it. Where the
-//! content is plain, all copies of one shape become a single shape of many contours. A pattern that
-//! would need too many outlines is left to resvg.
+//! A painted shape becomes a group that is clipped to the shape and holds all tiles under it. Where
+//! the content is plain, all copies of one shape become a single shape of many contours. A pattern
+//! that would need too many outlines is left to resvg.
 
 use kurbo::{Affine, BezPath, Rect, Shape as _};
 use usvg::{Group, Node, Pattern};
@@ -50,6 +50,7 @@ impl Tiles {
         if !sound || bounds.area() <= 0.0 {
             return None;
         }
+        // Back from the canvas to the pattern, where tiles are a plain grid.
         let area = canvas_from_pattern.inverse().transform_rect_bbox(bounds);
         let span = |low: f64, high: f64, origin: f64, size: f64| {
             [
@@ -150,6 +151,7 @@ impl<'a> Walker<'a, '_> {
         );
         let tile = tiles.tile();
         let (slack_x, slack_y) = (OVERHANG * tile.width(), OVERHANG * tile.height());
+        // Content within its tile needs no clip, which saves a test for every tile.
         let fits = tile.inflate(slack_x, slack_y).union(content) == tile.inflate(slack_x, slack_y);
         if fits && self.shared_tiles(pattern, tiles, place) {
             return;
@@ -189,9 +191,9 @@ impl<'a> Walker<'a, '_> {
         });
     }
 
-    /// Adds all tiles at once: each shape of the content becomes one shape with a copy in every tile.
-    /// Tiles do not overlap, so the order between them is free. Works for shapes of solid colours only;
-    /// for anything else it adds nothing and returns `false`.
+    /// Adds all tiles at once: each shape of the content becomes one shape with a copy in every
+    /// tile. Tiles do not overlap, so the order between them is free. Works for shapes of solid
+    /// colours only; for anything else it adds nothing and returns `false`.
     fn shared_tiles(&mut self, pattern: &'a Pattern, tiles: Tiles, place: Place<'a>) -> bool {
         let Some(place_of_one) = tiles.places().next() else {
             return true;
@@ -211,11 +213,13 @@ impl<'a> Walker<'a, '_> {
         self.window = window;
         let steps = self.steps.split_off(first);
         self.element_count = elements;
+        // Groups would have to be copied with their items.
         let plain = nodes.iter().all(|node| matches!(node, tree::Node::Item(_)))
             && steps.iter().all(is_plain);
         if !plain {
             return false;
         }
+        // From the place of the tile that was walked to the tile's own space.
         let one_from_canvas = place_of_one.inverse();
         for step in steps {
             let Step::Shape(shape) = step else { continue };
@@ -243,6 +247,7 @@ fn weight(group: &Group, levels: u32) -> f64 {
         Node::Group(group) => 4.0 + weight(group, levels),
         Node::Path(path) => {
             let verbs = count(path.data().verbs().len());
+            // An expanded stroke has about four elements for each of the line.
             let strokes = if path.stroke().is_some() { 4.0 } else { 0.0 };
             let paints = [
                 path.fill().map(usvg::Fill::paint),

@@ -1,9 +1,9 @@
 //! Filters that only change colours: they are applied to paints, so their content stays vector.
 //!
-//! This is exact for a `feColorMatrix` (Filter Effects 1, sec. 9.6) that keeps alpha. Such a matrix is
-//! linear in premultiplied colour and alpha, and so is compositing; in sRGB-encoded values it makes no
-//! difference which comes first. A filter in linear light is exact only if no colours are mixed:
-//! shapes have solid colours, and there is one shape or all are opaque.
+//! This is exact for a `feColorMatrix` (Filter Effects 1, sec. 9.6) that keeps alpha. Such a matrix
+//! is linear in premultiplied colour and alpha, and so is compositing; in sRGB-encoded values it
+//! makes no difference which comes first. A filter in linear light is exact only if no colours are
+//! mixed: shapes have solid colours, and there is one shape or all are opaque.
 
 use usvg::filter::{ColorInterpolation, ColorMatrix, ColorMatrixKind, Filter, Input, Kind};
 use usvg::{BlendMode, Group, Node};
@@ -29,6 +29,7 @@ impl Recolor {
         let contents = Contents::of(group);
         let region = filter.rect().to_rect();
         let drawn = group.stroke_bounding_box();
+        // A filter region cuts off what lies outside of it.
         let inside = region.left() <= drawn.left()
             && region.top() <= drawn.top()
             && region.right() >= drawn.right()
@@ -58,6 +59,7 @@ impl Recolor {
             [r, g, b]
         };
         let changed = self.rows.map(|row| {
+            // Filter Effects clamps results to [0, 1].
             let value = row[0] * from[0] + row[1] * from[1] + row[2] * from[2] + row[3];
             value.clamp(0.0, 1.0)
         });
@@ -93,6 +95,7 @@ fn rows(matrix: &ColorMatrix) -> Option<[[f32; 4]; 3]> {
         ColorMatrixKind::Matrix(values) => {
             let row = |first: usize| {
                 let [r, g, b, a, constant] = *values.get(first..)?.first_chunk()?;
+                // Alpha must not enter: the change has to work on straight colours.
                 (a == 0.0).then_some([r, g, b, constant])
             };
             let keeps_alpha = values.get(15..20)? == [0.0, 0.0, 0.0, 1.0, 0.0];

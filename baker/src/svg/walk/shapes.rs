@@ -42,6 +42,7 @@ impl<'a> Walker<'a, '_> {
     fn fill(&mut self, path: &'a usvg::Path, place: Place<'a>) {
         let bounds = path.data().bounds();
         let Some(fill) = path.fill() else { return };
+        // No area to fill. A stroke may still show.
         if bounds.width() <= 0.0 || bounds.height() <= 0.0 {
             return;
         }
@@ -127,11 +128,13 @@ impl<'a> Walker<'a, '_> {
         let Some(paint) = paint.filter(Paint::shows) else {
             return;
         };
+        // Recoloured here, after the opacity is folded in: the change keeps alpha.
         let paint = match place.recolor {
             Some(recolor) => paint.mapped(|color| recolor.apply(color)),
             None => paint,
         };
         let bounds = outline.control_box();
+        // Transforms of an SVG can overflow.
         if !outline.is_finite() || !self.shows(bounds) {
             return;
         }

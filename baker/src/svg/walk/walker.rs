@@ -15,17 +15,18 @@ use crate::{
     warning::Warnings,
 };
 
-/// How far a shape may reach, in canvases. usvg's coordinates are f32: further out neighbouring ones
-/// are a sixteenth of a canvas or more apart. A rectangle of that size may still be meant as an
-/// endless background, but the arcs of a circle are noise there, and there can be millions of them.
+/// How far a shape may reach, in canvases. usvg's coordinates are f32: further out neighbouring
+/// ones are a sixteenth of a canvas or more apart. A rectangle of that size may still be meant as
+/// an endless background, but the arcs of a circle are noise there, and there can be millions of
+/// them.
 const MAX_REACH: f64 = 1_048_576.0;
 /// Most path elements of a shape that reaches further.
 const MAX_FAR_ELEMENTS: usize = 256;
-/// Most path elements of all outlines together, with strokes expanded. Later stages hold several copies
-/// of each.
+/// Most path elements of all outlines together, with strokes expanded. Later stages hold several
+/// copies of each.
 pub(super) const MAX_OUTLINE_ELEMENTS: usize = 1 << 22;
-/// Most frames that the groups and clips around an item may take on an evaluator's stack. Two remain
-/// for what the list of a cell adds.
+/// Most frames that the groups and clips around an item may take on an evaluator's stack. Two
+/// remain for what the list of a cell adds.
 const MAX_DEPTH: u32 = MAX_FRAMES - 2;
 
 /// The options that change geometry and colours.
@@ -44,8 +45,8 @@ pub(super) struct Walker<'a, 'w> {
     pub(super) options: WalkOptions,
     pub(super) warnings: &'w Warnings,
     pub(super) canvas: Rect,
-    /// The canvas. What does not meet it is left out. While one tile of a pattern is walked to be copied,
-    /// it is larger.
+    /// The canvas. What does not meet it is left out. While one tile of a pattern is walked to be
+    /// copied, it is larger.
     pub(super) window: Rect,
     pub(super) quality: StrokeQuality,
     /// The items so far.
@@ -164,8 +165,8 @@ fn own_id(node: &Node) -> Option<&str> {
     inner.or_else(|| Some(node.id()).filter(|id| !id.is_empty()))
 }
 
-/// Box of what a node may paint. usvg's `abs_*` boxes would be wrong inside the groups that it makes
-/// for colour glyphs.
+/// Box of what a node may paint. usvg's `abs_*` boxes would be wrong inside the groups that it
+/// makes for colour glyphs.
 fn layer_bounds(node: &Node, canvas_from_parent: Affine) -> Rect {
     match node {
         Node::Group(group) => {
