@@ -1,4 +1,4 @@
-//! SVG in, [`VtexFile`] out: pure, deterministic at any thread count.
+//! SVG in, [`VtexFile`](vtex_format::VtexFile) out: pure, deterministic at any thread count.
 //!
 //! ```
 //! use vtex_baker::{BakeConfig, Resources, bake};
