@@ -52,6 +52,23 @@ vtex_need_rust() {
     done
 }
 
+# Rust's standard library for wasm32, which the step `wasm` compiles against.
+vtex_need_wasm() {
+    local target=wasm32-unknown-unknown
+    if [ -d "$(rustc --print target-libdir --target "$target")" ]; then
+        return 0
+    fi
+    if ! command -v rustup >/dev/null; then
+        vtex_fail "Rust has no target $target and there is no rustup to add it; install it by hand"
+        return 1
+    fi
+    vtex_say "rustup target add $target"
+    if ! rustup target add "$target"; then
+        vtex_fail "cannot add the target $target; rustup needs a network for it"
+        return 1
+    fi
+}
+
 # A C compiler: zstd-sys compiles libzstd.
 vtex_need_compiler() {
     if ! command -v cc >/dev/null && ! command -v gcc >/dev/null; then

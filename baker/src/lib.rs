@@ -69,3 +69,8 @@ pub use config::{BakeConfig, ImageReader, Mode, Resources, Stage};
 pub use error::BakeError;
 pub use pipeline::{bake, bake_observed};
 pub use svg::font_selector;
+
+/// The examples of README.md, which run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -13,43 +13,13 @@
 //! The smallest picture there is, one red cell:
 //!
 //! ```
-//! use vtex_format::{
-//!     CellWord, Grid, Limits, Meta, PaintRecord, SHADER_ABI, SamplerSettings, ShaderBlob, SpecKey,
-//!     VtexFile,
-//! };
+//! use vtex_format::{CellWord, Grid, Limits, Meta, PaintRecord, SpecKey, VtexFile};
 //!
 //! let red = CellWord::Solid { paint: 0 };
 //! let mut file = VtexFile {
-//!     meta: Meta {
-//!         canvas_size: [100.0, 100.0],
-//!         grid: Grid {
-//!             size_cells: [1, 1],
-//!             cell_from_uv_scale: [1.0, 1.0],
-//!             cell_from_uv_offset: [0.0, 0.0],
-//!             texels_per_cell: 8,
-//!         },
-//!         distance_range_texels: 4.0,
-//!         max_zoom: 64.0,
-//!         sampler: SamplerSettings::default(),
-//!         curve_lattice: None,
-//!     },
-//!     spec: bytemuck::Zeroable::zeroed(),
-//!     shader: ShaderBlob {
-//!         abi: SHADER_ABI,
-//!         wgsl_fragment: String::new(),
-//!         batch_spirv: Vec::new(),
-//!     },
 //!     paints: vec![PaintRecord::solid([1.0, 0.0, 0.0, 1.0])],
-//!     gradients: Vec::new(),
-//!     shapes: Vec::new(),
-//!     layers: Vec::new(),
 //!     cells: vec![red.encode().expect("0 fits 30 bits")],
-//!     entries: Vec::new(),
-//!     curves: Vec::new(),
-//!     sources: None,
-//!     tiles: Vec::new(),
-//!     images: Vec::new(),
-//!     provenance: None,
+//!     ..VtexFile::blank(Meta::new([100.0, 100.0], Grid::new([1, 1], 8)))
 //! };
 //! file.spec = SpecKey::for_file(&file);
 //!
@@ -62,6 +32,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![cfg_attr(
     not(any(test, all(feature = "encode", feature = "decode"))),
     expect(
@@ -123,3 +94,8 @@ pub use records::shape::{
 pub use serial::read::validate;
 #[cfg(feature = "encode")]
 pub use serial::write::Executor;
+
+/// The examples of README.md, which run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

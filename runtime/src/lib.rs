@@ -7,6 +7,8 @@
 //!
 //! [`Gpu::headless`] opens a device for programs that have none.
 
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
 mod batch;
 mod device;
 mod error;
@@ -31,4 +33,10 @@ pub use tracer::{
 };
 pub use vtex_shaders::layout::{BatchQuery, FilterMode};
 
-pub use wgpu;
+// The crates whose types stand in signatures here, so that their versions always fit.
+pub use {vtex_format, wgpu};
+
+/// The examples of README.md, which run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

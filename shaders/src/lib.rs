@@ -14,6 +14,8 @@
 //! assert!(!text.contains("vtex_image_"), "no code for what the file does not hold");
 //! ```
 
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
 pub mod cpu;
 pub mod layout;
 mod link;
@@ -41,3 +43,8 @@ pub use specialize::{
 pub fn hash(text: &str) -> [u8; 32] {
     *blake3::hash(text.as_bytes()).as_bytes()
 }
+
+/// The examples of README.md, which run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

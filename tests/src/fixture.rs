@@ -3,7 +3,7 @@
 use vtex_format::{
     AddressMode, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CellWord, CurveHeader, CurveLattice, Entry,
     EntryKind, Features, Gradient, GradientShape, GradientStop, Grid, Image, Meta, Outline,
-    PaintRecord, SHADER_ABI, SamplerSettings, ShaderBlob, SpecKey, Spread, VtexFile,
+    PaintRecord, SamplerSettings, Spread, VtexFile,
 };
 
 use crate::random::Random;
@@ -32,43 +32,18 @@ pub fn random_texture(seed: u64, features: u32) -> VtexFile {
     let r = &mut random;
     let has = |feature| features & feature != 0;
     let grid = random_grid(r);
+    let sampler = random_settings(r, features);
+    let paint = |_| random_paint(r, has(Features::TRANSLUCENT));
+    let paints = (0..PAINTS).map(paint).collect();
+    let meta = Meta {
+        distance_range_texels: DISTANCE_RANGE_TEXELS,
+        sampler,
+        ..Meta::new(grid.cell_from_uv_scale, grid)
+    };
     let mut file = VtexFile {
-        meta: Meta {
-            canvas_size: grid.cell_from_uv_scale,
-            grid,
-            distance_range_texels: DISTANCE_RANGE_TEXELS,
-            max_zoom: 1.0,
-            sampler: random_settings(r, features),
-            curve_lattice: None,
-        },
-        spec: SpecKey {
-            abi: SHADER_ABI,
-            features: 0,
-            address_u: 0,
-            address_v: 0,
-            texels_per_cell: 0,
-            max_entries: 0,
-            frames: 0,
-            reserved: 0,
-        },
-        shader: ShaderBlob {
-            abi: SHADER_ABI,
-            wgsl_fragment: String::new(),
-            batch_spirv: Vec::new(),
-        },
-        paints: (0..PAINTS)
-            .map(|_| random_paint(r, has(Features::TRANSLUCENT)))
-            .collect(),
-        gradients: Vec::new(),
-        shapes: Vec::new(),
-        layers: Vec::new(),
+        paints,
         cells: Vec::new(),
-        entries: Vec::new(),
-        curves: Vec::new(),
-        sources: None,
-        tiles: Vec::new(),
-        images: Vec::new(),
-        provenance: None,
+        ..VtexFile::blank(meta)
     };
     if has(Features::GRADIENTS) {
         for paint in &mut file.paints[SOLIDS as usize..] {

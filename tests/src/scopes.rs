@@ -9,8 +9,7 @@ mod reference;
 mod tree;
 
 use vtex_format::{
-    CellWord, CurveHeader, CurveLattice, Grid, Meta, PaintRecord, SHADER_ABI, SamplerSettings,
-    ShaderBlob, SpecKey, VtexFile, list_frames,
+    CellWord, CurveHeader, CurveLattice, Grid, Meta, PaintRecord, SpecKey, VtexFile, list_frames,
 };
 
 use crate::random::Random;
@@ -59,14 +58,16 @@ impl Drawing {
     ///
     /// # Panics
     /// When a tree is too large for a list.
-    #[expect(clippy::cast_precision_loss, reason = "few cells")]
     pub fn file(&self) -> VtexFile {
         let columns = u32::try_from(self.cells.len()).expect("few cells");
-        let mut file = empty_file([columns as f32, 1.0]);
-        file.meta.grid.size_cells = [columns, 1];
-        file.meta.curve_lattice = Some(lattice());
+        let grid = Grid::new([columns, 1], TEXELS_PER_CELL);
         let solid = |color: &[f32; 4]| PaintRecord::solid(*color);
-        file.paints = self.paints.iter().map(solid).collect();
+        let mut file = VtexFile {
+            paints: self.paints.iter().map(solid).collect(),
+            cells: Vec::new(),
+            ..VtexFile::blank(Meta::new(grid.cell_from_uv_scale, grid))
+        };
+        file.meta.curve_lattice = Some(lattice());
         let mut places = Vec::new();
         for record in &self.records {
             places.push(u32::try_from(file.curves.len()).expect("short records"));
@@ -102,41 +103,6 @@ impl Drawing {
 /// Never: the reach is in range.
 pub fn lattice() -> CurveLattice {
     CurveLattice::new(REACH_CELLS).expect("in range")
-}
-
-fn empty_file(scale: [f32; 2]) -> VtexFile {
-    VtexFile {
-        meta: Meta {
-            canvas_size: scale,
-            grid: Grid {
-                size_cells: [1, 1],
-                cell_from_uv_scale: scale,
-                cell_from_uv_offset: [0.0; 2],
-                texels_per_cell: TEXELS_PER_CELL,
-            },
-            distance_range_texels: 4.0,
-            max_zoom: 1.0,
-            sampler: SamplerSettings::default(),
-            curve_lattice: None,
-        },
-        spec: bytemuck::Zeroable::zeroed(),
-        shader: ShaderBlob {
-            abi: SHADER_ABI,
-            wgsl_fragment: String::new(),
-            batch_spirv: Vec::new(),
-        },
-        paints: Vec::new(),
-        gradients: Vec::new(),
-        shapes: Vec::new(),
-        layers: Vec::new(),
-        cells: Vec::new(),
-        entries: Vec::new(),
-        curves: Vec::new(),
-        sources: None,
-        tiles: Vec::new(),
-        images: Vec::new(),
-        provenance: None,
-    }
 }
 
 fn random_paint(r: &mut Random) -> [f32; 4] {

@@ -46,11 +46,8 @@ fn measure_tiger() {
         let last = std::sync::Mutex::new((Stage::Parse, Instant::now()));
         let observer = |stage: Stage| {
             let mut last = last.lock().unwrap();
-            println!(
-                "  {:?} {:.1} ms",
-                last.0,
-                last.1.elapsed().as_secs_f64() * 1e3
-            );
+            let elapsed_ms = last.1.elapsed().as_secs_f64() * 1e3;
+            println!("  {:?} {elapsed_ms:.1} ms", last.0);
             *last = (stage, Instant::now());
         };
         let file = assemble(drawing_of(&svg, &config), None, &config, [0; 32], &observer).unwrap();

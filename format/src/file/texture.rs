@@ -1,6 +1,8 @@
 //! A whole file as a value.
 
-use super::spec::SpecKey;
+use bytemuck::Zeroable as _;
+
+use super::spec::{SHADER_ABI, SpecKey};
 use crate::curves::source::CurveSources;
 use crate::records::image::Image;
 use crate::records::layer::LayerRecord;
@@ -42,4 +44,39 @@ pub struct VtexFile {
     pub images: Vec<Image>,
     /// How it was baked; `None` when the section was left out.
     pub provenance: Option<Provenance>,
+}
+
+impl VtexFile {
+    /// A file whose cells are all empty, and without anything else: what others are made from, as
+    /// in `VtexFile { paints, cells, ..VtexFile::blank(meta) }`.
+    ///
+    /// The key is that of the blank file and the shader has no text; [`SpecKey::for_file`] makes
+    /// the key of what the file becomes.
+    pub fn blank(meta: Meta) -> Self {
+        let [columns, rows] = meta.grid.size_cells.map(|side| side as usize);
+        // An empty cell's word is zero.
+        let cells = vec![0; columns.saturating_mul(rows)];
+        let mut file = Self {
+            meta,
+            spec: SpecKey::zeroed(),
+            shader: ShaderBlob {
+                abi: SHADER_ABI,
+                wgsl_fragment: String::new(),
+                batch_spirv: Vec::new(),
+            },
+            paints: Vec::new(),
+            gradients: Vec::new(),
+            shapes: Vec::new(),
+            layers: Vec::new(),
+            cells,
+            entries: Vec::new(),
+            curves: Vec::new(),
+            sources: None,
+            tiles: Vec::new(),
+            images: Vec::new(),
+            provenance: None,
+        };
+        file.spec = SpecKey::for_file(&file);
+        file
+    }
 }

@@ -27,6 +27,21 @@ pub struct Meta {
     pub curve_lattice: Option<CurveLattice>,
 }
 
+impl Meta {
+    /// Settings with the usual values: a distance range of 4 texels, `max_zoom` 1, the default
+    /// sampler, no curves. `canvas_size` is in user units.
+    pub fn new(canvas_size: [f32; 2], grid: Grid) -> Self {
+        Self {
+            canvas_size,
+            grid,
+            distance_range_texels: 4.0,
+            max_zoom: 1.0,
+            sampler: SamplerSettings::default(),
+            curve_lattice: None,
+        }
+    }
+}
+
 /// The uniform cell grid. Cells are square in user units.
 ///
 /// `cell = floor(uv * cell_from_uv_scale + cell_from_uv_offset)`; the offset keeps edges at round
@@ -41,6 +56,22 @@ pub struct Grid {
     pub cell_from_uv_offset: [f32; 2],
     /// Lattice steps of an MSDF tile along a cell's side.
     pub texels_per_cell: u32,
+}
+
+impl Grid {
+    /// Columns and rows of cells that cover the canvas exactly, its corner in a cell's corner.
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "grids have at most 2^14 cells a side"
+    )]
+    pub fn new(size_cells: [u32; 2], texels_per_cell: u32) -> Self {
+        Self {
+            size_cells,
+            cell_from_uv_scale: size_cells.map(|side| side as f32),
+            cell_from_uv_offset: [0.0, 0.0],
+            texels_per_cell,
+        }
+    }
 }
 
 /// Settings of \[SFG22\] that a lookup applies.

@@ -6,7 +6,7 @@
 /// First bytes of a frame.
 const MAGIC: [u8; 4] = [0x28, 0xB5, 0x2F, 0xFD];
 /// Most bytes of a block, packed or not. Less where the window is smaller.
-const MAX_BLOCK_BYTES: u64 = 128 << 10;
+pub(super) const MAX_BLOCK_BYTES: u64 = 128 << 10;
 /// The largest exponent of a window, 1 to almost 2 GiB: what the C library takes on 32 bits.
 const MAX_WINDOW_EXPONENT: u8 = 20;
 /// Bytes of an XXH64's low half.
@@ -21,6 +21,8 @@ pub(super) struct Frame<'a> {
     pub(super) content_bytes: Option<u64>,
     /// From the first block's head to the last block's end.
     pub(super) blocks: &'a [u8],
+    /// Most bytes of a block, packed or not.
+    pub(super) max_block_bytes: u64,
     /// Low half of the XXH64 of the raw bytes, where the frame ends with one.
     pub(super) checksum: Option<u32>,
 }
@@ -48,6 +50,7 @@ impl<'a> Frame<'a> {
         Ok(Self {
             bytes,
             content_bytes: head.content_bytes,
+            max_block_bytes: head.max_block_bytes,
             blocks,
             // Four bytes: it fits.
             checksum: checksum.and_then(|number| u32::try_from(number).ok()),
@@ -117,9 +120,54 @@ impl Head {
         if size > self.max_block_bytes {
             return None;
         }
-        bytes.take(usize::try_from(stored).ok()?)?;
-        Some(head & 1 != 0)
+        let block = bytes.take(usize::try_from(stored).ok()?)?;
+        let packed = head >> 1 & 3 == 2;
+        let sound = !packed || self.is_sound_block(Bytes(block))?;
+        sound.then_some(head & 1 != 0)
     }
+
+    /// Whether the heads of a packed block's two parts say nothing that only some decoders take:
+    /// more literals than a block may hold, and bits that are reserved.
+    fn is_sound_block(&self, mut block: Bytes<'_>) -> Option<bool> {
+        let (literals, stored) = take_literals_head(&mut block)?;
+        block.take(stored)?;
+        let sequences = match block.byte()? {
+            byte @ 0..=127 => u64::from(byte),
+            byte @ 128..=254 => u64::from(byte - 128) << 8 | block.number(1)?,
+            255 => block.number(2)? + 0x7F00,
+        };
+        let is_end = block.0.is_empty();
+        let modes = if sequences == 0 { 0 } else { block.byte()? };
+        Some(literals <= self.max_block_bytes && modes & 3 == 0 && (sequences > 0 || is_end))
+    }
+}
+
+/// Takes the head of a block's literals: how many there are, and the bytes that they take behind it.
+///
+/// Bits 1..0 are the kind: 0 as they are, 1 one byte again and again, 2 and 3 packed. Bits 3..2, of
+/// the first two kinds only bit 2 where that is zero, say how wide the numbers are that follow.
+fn take_literals_head(block: &mut Bytes<'_>) -> Option<(u64, usize)> {
+    let first = *block.0.first()?;
+    let kind = first & 3;
+    let width = first >> 2 & 3;
+    let (literals, stored) = if kind < 2 {
+        let literals = match width {
+            0 | 2 => block.number(1)? >> 3,
+            1 => block.number(2)? >> 4,
+            _ => block.number(3)? >> 4,
+        };
+        (literals, if kind == 0 { literals } else { 1 })
+    } else {
+        let (bytes, bits) = match width {
+            0 | 1 => (3, 10),
+            2 => (4, 14),
+            _ => (5, 18),
+        };
+        let numbers = block.number(bytes)? >> 4;
+        let mask = (1 << bits) - 1;
+        (numbers & mask, numbers >> bits & mask)
+    };
+    Some((literals, usize::try_from(stored).ok()?))
 }
 
 /// Five bits of exponent above three of mantissa.

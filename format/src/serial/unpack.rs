@@ -10,39 +10,47 @@ use crate::container::section::{Codec, SectionInfo};
 pub(crate) type Refusal = (IssueKind, String);
 
 /// Unpacks a section into memory of just its raw length.
+///
+/// What refuses the shell of a frame is [`issue::FRAME`]; blocks that do not unpack, or not to what
+/// was written, are both [`issue::HASH`]: decoders differ in which damage they notice, and so a
+/// file has the same issues with either.
 pub(crate) fn unpack(section: &SectionInfo, stored: &[u8], raw: &mut [u8]) -> Result<(), Refusal> {
-    match section.codec {
-        // The directory holds raw sections to equal lengths.
-        Codec::Raw => raw.copy_from_slice(stored),
-        Codec::Zstd => unpack_frame(stored, raw).map_err(|message| (issue::FRAME, message))?,
+    let unpacked = match section.codec {
+        // The directory has seen that both lengths are equal.
+        Codec::Raw => {
+            raw.copy_from_slice(stored);
+            Some(())
+        }
+        Codec::Zstd => {
+            let frame = Frame::parse(stored).map_err(|message| (issue::FRAME, message))?;
+            decode_frame(&frame, raw)?
+        }
         Codec::Unknown(number) => return Err((issue::CODEC, format!("codec {number}"))),
-    }
-    if *blake3::hash(raw).as_bytes() != section.hash {
+    };
+    let hash = unpacked.map(|()| blake3::hash(raw));
+    if hash.is_none_or(|hash| *hash.as_bytes() != section.hash) {
         let message = "the raw bytes are not those that were written";
         return Err((issue::HASH, message.to_owned()));
     }
     Ok(())
 }
 
-/// Both decoders see only what [`Frame::parse`] lets through, and their own words are dropped: so
-/// a file has the same issues with either.
-fn unpack_frame(stored: &[u8], raw: &mut [u8]) -> Result<(), String> {
-    let frame = Frame::parse(stored)?;
+/// `None` when the blocks do not unpack to the content.
+fn decode_frame(frame: &Frame<'_>, raw: &mut [u8]) -> Result<Option<()>, Refusal> {
     if frame.content_bytes != Some(raw.len() as u64) {
-        return Err(format!(
-            "the frame does not say that it holds {} bytes",
-            raw.len()
-        ));
+        let bytes = raw.len();
+        let message = format!("the frame does not say that it holds {bytes} bytes");
+        return Err((issue::FRAME, message));
     }
     #[cfg(feature = "zstd")]
-    let decoded = zstd_decoder::decode(&frame, raw);
+    let decoded = zstd_decoder::decode(frame, raw);
     #[cfg(not(feature = "zstd"))]
-    let decoded = ruzstd_decoder::decode(&frame, raw);
-    decoded.ok_or_else(|| "the blocks of the frame do not hold its content".to_owned())
+    let decoded = ruzstd_decoder::decode(frame, raw);
+    Ok(decoded)
 }
 
 /// The C library.
-#[cfg(feature = "zstd")]
+#[cfg(any(test, feature = "zstd"))]
 mod zstd_decoder {
     use super::Frame;
 
@@ -54,36 +62,42 @@ mod zstd_decoder {
 }
 
 /// The decoder in Rust, for targets without a C compiler.
-#[cfg(all(feature = "ruzstd", any(test, not(feature = "zstd"))))]
+#[cfg(any(test, not(feature = "zstd")))]
 mod ruzstd_decoder {
     use std::io::Read;
 
     use ruzstd::decoding::{BlockDecodingStrategy, FrameDecoder};
 
     use super::Frame;
+    use crate::serial::frame::MAX_BLOCK_BYTES;
 
-    /// Magic number and a descriptor that says: one segment, eight bytes of content size.
+    /// Magic number and a descriptor that says: one segment, its size, which
+    /// is the window, in eight bytes.
     const HEAD: [u8; 5] = [0x28, 0xB5, 0x2F, 0xFD, 0xE0];
 
     /// Fills `raw`; `None` unless the frame holds just as many bytes.
     ///
-    /// The decoder is given the blocks behind a head of our own, of a single segment, whatever the
-    /// frame's own head says:
-    /// - The window is then the content. A match may reach back to the first byte, as it may for
-    ///   the C library, which decodes into the one piece of memory and does not look at the window.
-    /// - The decoder's buffer offers bytes before the last block only when it holds more than its
-    ///   window: that is how a frame that holds more than it says is found after one block too
-    ///   many, and memory stays below twice the content, whatever window the frame asks for.
+    /// The decoder is given the blocks behind a head of our own, whose window is the whole content
+    /// whatever the frame's head says. A match may then reach back to the first byte, as it may for
+    /// the C library, which decodes into the one piece of memory and looks at no window. Only
+    /// where a small window makes for smaller blocks it stays, since it bounds them.
     pub(super) fn decode(frame: &Frame<'_>, raw: &mut [u8]) -> Option<()> {
-        let length = (raw.len() as u64).to_le_bytes();
-        let mut source = HEAD.chain(length.as_slice()).chain(frame.blocks);
+        let window = match frame.max_block_bytes {
+            MAX_BLOCK_BYTES => raw.len() as u64,
+            less => less,
+        };
+        let window_bytes = window.to_le_bytes();
+        let mut source = HEAD.chain(window_bytes.as_slice()).chain(frame.blocks);
         let mut decoder = FrameDecoder::new();
         // The caller's limits allow the raw length; the decoder's own, 100 MiB, is not asked.
         decoder.set_max_window_size(u64::MAX);
         decoder.init(&mut source).ok()?;
         let one = || BlockDecodingStrategy::UptoBlocks(1);
         while !decoder.decode_blocks(&mut source, one()).ok()? {
-            if decoder.can_collect() > 0 {
+            // What lies beyond the window can be collected. A frame that holds more than it says
+            // is found within a window of small blocks, or one block of large ones, too many.
+            let beyond = decoder.can_collect() as u64;
+            if beyond > 0 && beyond + window > raw.len() as u64 {
                 return None;
             }
         }
@@ -111,3 +125,7 @@ pub(crate) fn allocate<T: Pod>(bytes: u64) -> Result<Vec<T>, Refusal> {
     elements.resize(count, T::zeroed());
     Ok(elements)
 }
+
+#[cfg(test)]
+#[path = "unpack_tests.rs"]
+mod tests;

@@ -39,11 +39,11 @@ pub(crate) fn small() -> VtexFile {
     ];
     let mut gradients = Vec::new();
     let [linear, radial] = small_gradients().map(|gradient| gradient.store(&mut gradients));
+    let meta = Meta {
+        curve_lattice: CurveLattice::new(0.125),
+        ..meta([2, 2], 2)
+    };
     let file = VtexFile {
-        meta: Meta {
-            curve_lattice: CurveLattice::new(0.125),
-            ..meta([2, 2], 2)
-        },
         spec: SpecKey {
             features: Features::MIPS,
             ..SpecKey::zeroed()
@@ -74,13 +74,13 @@ pub(crate) fn small() -> VtexFile {
             .collect(),
         // A record of 3 words, then one of 6.
         curves: [record(1, 0, 0), record(0, 2, 0)].concat(),
-        sources: None,
         tiles: tiles(3 * 9),
         images: vec![
             image([0.0, 0.0, 1.0, 1.0], [5, 3]),
             image([0.25, 0.0, 0.5, 1.0], [1, 2]),
         ],
         provenance: Some(provenance(4)),
+        ..VtexFile::blank(meta)
     };
     with_key(file)
 }

@@ -2,7 +2,7 @@
 
 use vtex_format::{
     CellWord, CurveHeader, CurveLattice, Entry, EntryKind, Grid, Image, Meta, PaintRecord,
-    SHADER_ABI, SamplerSettings, ShaderBlob, SpecKey, VtexFile,
+    SHADER_ABI, SpecKey, VtexFile,
 };
 
 /// Lattice steps a cell.
@@ -25,39 +25,11 @@ pub(crate) enum Cover {
 
 /// A file of `columns` cells in one row, all empty.
 pub(crate) fn row_of(columns: u32) -> VtexFile {
-    let meta = Meta {
-        canvas_size: [columns as f32, 1.0],
-        grid: Grid {
-            size_cells: [columns, 1],
-            cell_from_uv_scale: [columns as f32, 1.0],
-            cell_from_uv_offset: [0.0; 2],
-            texels_per_cell: TEXELS,
-        },
+    let grid = Grid::new([columns, 1], TEXELS);
+    VtexFile::blank(Meta {
         distance_range_texels: RANGE,
-        max_zoom: 1.0,
-        sampler: SamplerSettings::default(),
-        curve_lattice: None,
-    };
-    VtexFile {
-        meta,
-        spec: bytemuck::Zeroable::zeroed(),
-        shader: ShaderBlob {
-            abi: SHADER_ABI,
-            wgsl_fragment: String::new(),
-            batch_spirv: Vec::new(),
-        },
-        paints: Vec::new(),
-        gradients: Vec::new(),
-        shapes: Vec::new(),
-        layers: Vec::new(),
-        cells: vec![0; columns as usize],
-        entries: Vec::new(),
-        curves: Vec::new(),
-        sources: None,
-        tiles: Vec::new(),
-        images: Vec::new(),
-        provenance: None,
-    }
+        ..Meta::new([columns as f32, 1.0], grid)
+    })
 }
 
 /// A key that differs from the default only in what a test names.

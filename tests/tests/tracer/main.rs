@@ -10,10 +10,7 @@
 mod awaited;
 mod batch;
 
-use vtex_format::{
-    AddressMode, CellWord, Grid, Meta, PaintRecord, SHADER_ABI, SamplerSettings, ShaderBlob,
-    SpecKey, VtexFile,
-};
+use vtex_format::{CellWord, Grid, Meta, PaintRecord, VtexFile};
 use vtex_runtime::{
     Background, Camera, Film, Instance, LightSampling, LoadOptions, Material, Mesh, RectLight,
     RuntimeError, Scene, Sky, Surface, TraceOptions, Tracer, scene,
@@ -23,51 +20,16 @@ use vtex_tests::gpu::shared as gpu;
 /// A file of single-colour cells, `size` columns and rows; `colors` row by row from the top,
 /// straight alpha, sRGB-encoded.
 fn cells_file(size: [u32; 2], colors: &[[f32; 4]]) -> VtexFile {
-    let spec = SpecKey {
-        abi: SHADER_ABI,
-        features: 0,
-        address_u: AddressMode::Clamp as u32,
-        address_v: AddressMode::Clamp as u32,
-        texels_per_cell: 8,
-        max_entries: 0,
-        frames: 0,
-        reserved: 0,
-    };
-    VtexFile {
-        meta: Meta {
-            canvas_size: size.map(|side| side as f32 * 10.0),
-            grid: Grid {
-                size_cells: size,
-                cell_from_uv_scale: size.map(|side| side as f32),
-                cell_from_uv_offset: [0.0; 2],
-                texels_per_cell: 8,
-            },
-            distance_range_texels: 4.0,
-            max_zoom: 1.0,
-            sampler: SamplerSettings::default(),
-            curve_lattice: None,
-        },
-        spec,
-        shader: ShaderBlob {
-            abi: SHADER_ABI,
-            wgsl_fragment: vtex_shaders::fragment(&spec, vtex_shaders::BindingSlot::default()),
-            batch_spirv: Vec::new(),
-        },
+    let solid = |paint| CellWord::Solid { paint }.encode().unwrap();
+    let canvas_size = size.map(|side| side as f32 * 10.0);
+    let mut file = VtexFile {
         paints: colors.iter().map(|&c| PaintRecord::solid(c)).collect(),
-        gradients: Vec::new(),
-        shapes: Vec::new(),
-        layers: Vec::new(),
-        cells: (0..)
-            .zip(colors)
-            .map(|(paint, _)| CellWord::Solid { paint }.encode().unwrap())
-            .collect(),
-        entries: Vec::new(),
-        curves: Vec::new(),
-        sources: None,
-        tiles: Vec::new(),
-        images: Vec::new(),
-        provenance: None,
-    }
+        cells: (0..).zip(colors).map(|(paint, _)| solid(paint)).collect(),
+        ..VtexFile::blank(Meta::new(canvas_size, Grid::new(size, 8)))
+    };
+    let slot = vtex_shaders::BindingSlot::default();
+    file.shader.wgsl_fragment = vtex_shaders::fragment(&file.spec, slot);
+    file
 }
 
 const RED: [f32; 4] = [1.0, 0.0, 0.0, 1.0];

@@ -1,68 +1,50 @@
-//! `vtex-bench`: how long bakes, lookups and rays take on this machine, beside their rivals.
+//! `vtex-bench`: how long bakes, lookups and rays take on this machine, compared with their rivals.
 
-mod clock;
-mod device;
-mod lookups;
-mod machine;
-mod processes;
-mod queries;
-mod raster;
-mod rasterise;
-mod rays;
 mod report;
-mod rivals;
-mod sfg22;
-mod sizes;
-mod stages;
 mod subject;
-mod table;
+mod tables;
+mod timing;
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use anyhow::{Result, bail};
 use clap::{Parser, ValueEnum};
-use vtex_baker::Resources;
 
-use crate::device::Device;
-use crate::lookups::{count_table, cpu_tables, gpu_tables};
-use crate::machine::Machine;
 use crate::report::Report;
-use crate::rivals::Effort;
-use crate::stages::stages_table;
-use crate::subject::Subject;
+use crate::subject::{Subject, find, system_fonts};
+use crate::timing::{Device, Effort, Machine};
 
-/// Times bake stages, lookups a second per filter mode and rays a second, and prints the machine
-/// and the adapter.
+/// Times the stages of bakes, lookups per second by filter mode, and rays per second, and prints the
+/// machine and the adapter they ran on.
 ///
-/// Run it as `cargo run --release -p vtex-bench`. Everything in a table is measured in turn within
-/// each round, after one warm-up run that also compiles shaders. A figure is the median of the
-/// rounds with its range in brackets; `x` is its ratio to the table's baseline, the median of the
-/// ratios within rounds. On a busy or shared machine trust the ratios.
+/// Run it as `cargo run --release -p vtex-bench`. After one warm-up run, which also compiles the
+/// shaders, each round runs all trials of a table once, in turn. A figure is the median of the
+/// rounds with its range in brackets; `x` is its speed as a multiple of the table's baseline: the
+/// median of the ratios within rounds. On a busy or shared machine rely on the ratios only.
 #[derive(Debug, Parser)]
 #[command(version)]
 struct Args {
-    /// SVG files; without any, the samples of `tests/data/svg/paper` and, where the folder exists,
-    /// those of `paper5` in the corpus (`VTEX_CORPUS`, else `../shared/corpus`).
+    /// SVG files. The default is the samples of `tests/data/svg/paper` and, if there is a corpus
+    /// (`VTEX_CORPUS`, else `../shared/corpus`), its folder `paper5`.
     files: Vec<PathBuf>,
-    /// Only these parts.
+    /// Measure only these parts.
     #[arg(long, value_delimiter = ',')]
     only: Vec<Part>,
-    /// Timed runs of everything after the warm-up.
+    /// Rounds after the warm-up.
     #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..))]
     rounds: u16,
-    /// Lookups a run on the GPU, in units of 2^18 (one 512 x 512 window).
+    /// Lookups per run on the GPU, in units of 2^18 (one window of 512 x 512).
     #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..=16))]
     windows: u16,
-    /// Writes the tables as Markdown.
+    /// Write the tables as Markdown.
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
-    /// Does nothing but rasterise the one file to this PNG at 4096 pixels along its longer side, on one
-    /// thread, and print the milliseconds of parsing, rendering, encoding and writing: the rival of
-    /// `processes`.
+    /// Only rasterise the one SVG file to this PNG, with 4096 pixels along its longer side and on one
+    /// thread, and print the milliseconds of parsing, rendering, encoding and writing. The part
+    /// `processes` runs this program so, as the rival of `vtex bake`.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["only", "markdown", "json"])]
     png: Option<PathBuf>,
-    /// Writes everything as JSON.
+    /// Write everything as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 }
@@ -78,10 +60,10 @@ enum Part {
     Gpu,
     /// Rays of the path tracer.
     Rays,
-    /// Bytes of each file beside those of its rivals.
+    /// Bytes of each file and of its rivals.
     Sizes,
-    /// Whole processes: `vtex bake`, which must have been built beside this program, and resvg to a
-    /// PNG. Only when asked for.
+    /// Whole processes: `vtex bake`, which must be built in the same folder as this program, and
+    /// resvg to a PNG. Not part of the default.
     Processes,
 }
 
@@ -91,7 +73,7 @@ fn main() -> Result<()> {
         let [svg] = args.files.as_slice() else {
             bail!("--png takes one SVG file");
         };
-        return processes::rasterise_to_png(svg, png);
+        return tables::rasterise_to_png(svg, png);
     }
     let wanted = |part| args.only.is_empty() || args.only.contains(&part);
     let effort = Effort {
@@ -99,8 +81,8 @@ fn main() -> Result<()> {
         gpu_lookups: usize::from(args.windows) << 18,
         cpu_lookups: 1 << 18,
     };
-    let paths = subject::find(&args.files)?;
-    let resources = resources();
+    let paths = find(&args.files)?;
+    let resources = system_fonts();
     let machine = Machine::detect();
     let cores = machine.cores();
     let device = (wanted(Part::Gpu) || wanted(Part::Rays))
@@ -109,16 +91,21 @@ fn main() -> Result<()> {
     let mut report = Report::begin(machine, device.as_ref(), resources.fonts.len())?;
 
     if wanted(Part::Bake) {
-        report.add(stages_table(&paths, &resources, 1, effort.rounds)?)?;
+        report.add(tables::stages_table(&paths, &resources, 1, effort.rounds)?)?;
         if cores > 1 {
-            report.add(stages_table(&paths, &resources, cores, effort.rounds)?)?;
+            report.add(tables::stages_table(
+                &paths,
+                &resources,
+                cores,
+                effort.rounds,
+            )?)?;
         }
     }
     if wanted(Part::Sizes) {
-        report.add_all(sizes::size_tables(&paths, &resources)?)?;
+        report.add_all(tables::size_tables(&paths, &resources)?)?;
     }
     if args.only.contains(&Part::Processes) {
-        report.add_all(processes::process_tables(&paths, effort.rounds)?)?;
+        report.add_all(tables::process_tables(&paths, effort.rounds)?)?;
     }
     let subjects: Vec<Subject> = match wanted(Part::Cpu) || wanted(Part::Gpu) || wanted(Part::Rays)
     {
@@ -129,32 +116,22 @@ fn main() -> Result<()> {
         false => Vec::new(),
     };
     if wanted(Part::Cpu) {
-        report.add(count_table(&subjects, effort))?;
-        report.add_all(cpu_tables(&subjects, 1, effort)?)?;
+        report.add(tables::count_table(&subjects, effort))?;
+        report.add_all(tables::cpu_tables(&subjects, 1, effort)?)?;
         if cores > 1 {
-            report.add_all(cpu_tables(&subjects, cores, effort)?)?;
+            report.add_all(tables::cpu_tables(&subjects, cores, effort)?)?;
         }
     }
     if let Some(device) = device.as_ref().filter(|_| wanted(Part::Gpu)) {
-        rivals::check_queries(device)?;
-        report.add_all(gpu_tables(device, &subjects, effort)?)?;
-        report.add(rivals::sfg22_table(device, effort)?)?;
-        report.add(rivals::minified_table(device, effort)?)?;
-        report.add(rivals::fetch_table(device, effort)?)?;
+        tables::check_queries(device)?;
+        report.add_all(tables::gpu_tables(device, &subjects, effort)?)?;
+        report.add(tables::sfg22_table(device, effort)?)?;
+        report.add(tables::minified_table(device, effort)?)?;
+        report.add(tables::fetch_table(device, effort)?)?;
     }
     if let Some(device) = device.as_ref().filter(|_| wanted(Part::Rays)) {
         let subjects: Vec<(PathBuf, Subject)> = paths.into_iter().zip(subjects).collect();
-        report.add(rays::rays_table(device, &subjects, &resources, effort)?)?;
+        report.add(tables::rays_table(device, &subjects, &resources, effort)?)?;
     }
     report.finish(args.markdown.as_deref(), args.json.as_deref())
-}
-
-/// The system's fonts, for drawings with text.
-fn resources() -> Resources {
-    let mut fonts = resvg::usvg::fontdb::Database::new();
-    fonts.load_system_fonts();
-    Resources {
-        fonts: Arc::new(fonts),
-        ..Resources::default()
-    }
 }

@@ -20,7 +20,7 @@ pub fn showroom(files: Vec<VtexFile>) -> Scene {
     room.scene
 }
 
-/// Colour of everything that is not drawn.
+/// Colour under the drawings and of objects without one.
 const PAPER: [f32; 3] = [0.82, 0.81, 0.78];
 
 struct Room {
@@ -60,7 +60,7 @@ impl Room {
         }
     }
 
-    /// The floor, and a wall far enough back to leave the objects alone.
+    /// The floor, and a wall far enough behind the objects to cast no shadow on them.
     fn walls(&mut self) {
         let floor = Material {
             base_color: [0.32, 0.31, 0.30],
@@ -150,7 +150,8 @@ impl Room {
             ..Material::default()
         };
         let center = Vec3::new(1.15, 0.5 * height, 0.1);
-        // u = 0.5 faces the camera; of an even number of copies that is a seam, so half a copy more.
+        // u = 0.5 faces the camera. With an even number of copies a seam lies there, so the mug is
+        // turned by half a copy.
         let to_camera = Vec3::from(self.scene.camera.position) - center;
         let half_copy = if copies % 2.0 == 0.0 {
             std::f32::consts::PI / copies
@@ -182,8 +183,8 @@ impl Room {
         self.add(Mesh::plane(width, depth), panel, place);
     }
 
-    /// The next texture and its proportions. Each object has a copy of its own, since address
-    /// modes are part of a loaded texture.
+    /// The next texture and its proportions. Each object gets a copy of its own, since the address
+    /// mode is set when a texture is loaded.
     fn take(&mut self, address: Option<[AddressMode; 2]>) -> (Option<usize>, f32) {
         if self.files.is_empty() {
             return (None, 1.0);

@@ -1,4 +1,4 @@
-//! What can go wrong while a picture is drawn, taken or encoded.
+//! Errors while a picture is drawn, taken or encoded.
 
 use vtex_runtime::RuntimeError;
 
@@ -12,7 +12,7 @@ pub enum TruthError {
     /// The PNG encoder refused the picture.
     #[error("cannot encode PNG: {0}")]
     Png(#[from] png::EncodingError),
-    /// The GPU, or what was asked of it.
+    /// The GPU failed, or the texture does not fit into its limits.
     #[error("{0}")]
     Gpu(#[from] RuntimeError),
 }

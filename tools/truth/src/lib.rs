@@ -1,9 +1,11 @@
 //! What a texture should look like, and how far it is from that.
 //!
-//! [`mod@reference`] draws the SVG with resvg: the truth. [`texture`] takes pictures of a `.vtex`
-//! file and of the raster texture that engines use today. [`picture`] measures how far two
-//! pictures are apart. [`comparison`] chooses the places to compare at a zoom, compares there and
-//! writes the result as a page.
+//! The truth is a picture that resvg draws from the SVG. [`mod@reference`] draws it, at any zoom.
+//! [`texture`] takes pictures of a `.vtex` file, and of the raster texture that engines use today.
+//! [`picture`] measures how far two pictures are apart. [`comparison`] chooses the windows to
+//! compare at a zoom, compares them, and makes a page of the pictures.
+//!
+//! Nothing here reads or writes files or prints.
 //!
 //! ```
 //! use vtex_baker::{BakeConfig, Resources, bake};

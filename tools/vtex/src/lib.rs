@@ -1,20 +1,13 @@
-//! The `vtex` command; [`command::run`] is the whole of it.
+//! The `vtex` command; [`run`] is the whole of it.
+//!
+//! One room for each job: `cli` talks to the user, `command` has one file for each subcommand,
+//! `baking` turns SVG into `.vtex` in limited processes, `texture` looks at `.vtex` files, `files`
+//! reads and writes.
 
-pub mod args;
-pub mod baking;
-pub mod cache;
-pub mod color;
-pub mod command;
-pub mod console;
-pub mod failure;
-pub mod fonts;
-pub mod heat;
-pub mod images;
-pub mod input;
-mod memory;
-pub mod output;
-pub mod texture;
-pub mod tracing;
-pub mod walk;
-mod wire;
-mod workers;
+mod baking;
+mod cli;
+mod command;
+mod files;
+mod texture;
+
+pub use command::run;

@@ -1,6 +1,8 @@
 //! `cargo xtask ci`: everything a change must pass, each step timed.
 
-use std::process::Command;
+use std::io::{BufRead, BufReader, IsTerminal as _, Write};
+use std::path::Path;
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, ensure};
@@ -17,13 +19,22 @@ enum Outcome {
     Skipped,
 }
 
-type Step = (&'static str, fn(&Workspace) -> Result<Outcome>);
+/// The second argument takes what tests say that they left out, for the summary.
+type Step = (
+    &'static str,
+    fn(&Workspace, &mut Vec<String>) -> Result<Outcome>,
+);
+
+/// How tests begin the line that says that they did not run (`vtex_testing::skip`).
+const NOT_TESTED: &str = "NOT TESTED";
+/// The target of browsers.
+const WASM: &str = "wasm32-unknown-unknown";
 
 /// Quick ones first.
 const STEPS: &[Step] = &[
-    ("format", |ws| cargo(ws, &["fmt", "--all", "--check"])),
-    ("tidy", |ws| Ok(outcome(tidy::run(ws)?))),
-    ("clippy", |ws| {
+    ("format", |ws, _| cargo(ws, &["fmt", "--all", "--check"])),
+    ("tidy", |ws, _| Ok(outcome(tidy::run(ws)?))),
+    ("clippy", |ws, _| {
         let lint = [
             "clippy",
             "--release",
@@ -33,20 +44,27 @@ const STEPS: &[Step] = &[
         ];
         cargo(ws, &[&lint[..], &["--", "-D", "warnings"]].concat())
     }),
-    ("doc", |ws| {
+    ("doc", |ws, _| {
         let arguments = ["doc", "--release", "--workspace", "--no-deps", "--locked"];
         let mut command = ws.cargo(&arguments);
         execute(command.env("RUSTDOCFLAGS", "-D warnings"))
     }),
+    // What a browser needs compiles without a C compiler.
+    ("wasm", |ws, _| wasm(ws)),
     // Unit, integration and doc tests.
-    ("test", |ws| {
-        cargo(ws, &["test", "--release", "--workspace", "--locked"])
+    ("test", |ws, left_out| {
+        tests(ws, left_out, &["--release", "--workspace", "--locked"])
     }),
-    // The same reader with overflow checks, which the release profile leaves out.
-    ("test-overflow", |ws| {
-        cargo(ws, &["test", "-p", "vtex-format", "--locked"])
+    // The same reader with overflow checks, which the release profile leaves out; and with both
+    // decoders, which a test compares.
+    ("test-overflow", |ws, left_out| {
+        tests(
+            ws,
+            left_out,
+            &["-p", "vtex-format", "--features", "ruzstd", "--locked"],
+        )
     }),
-    ("deny", |ws| {
+    ("deny", |ws, _| {
         if !has_deny(ws) {
             return Ok(Outcome::Failed);
         }
@@ -56,22 +74,29 @@ const STEPS: &[Step] = &[
             &["deny", "--locked", "check", "bans", "licenses", "sources"],
         )
     }),
-    ("advisories", advisories),
+    ("advisories", |ws, _| advisories(ws)),
 ];
 
 /// Runs all steps, or the named ones, even when one fails. False when one did.
 fn run_steps(ws: &Workspace, steps: &[Step]) -> Result<bool> {
     let mut report = Vec::new();
+    let mut left_out = Vec::new();
     for (name, step) in steps {
         println!("==> {name}");
         let start = Instant::now();
-        let outcome = step(ws).with_context(|| format!("step {name}"))?;
+        let outcome = step(ws, &mut left_out).with_context(|| format!("step {name}"))?;
         report.push((*name, outcome, start.elapsed()));
         println!("<== {}", row(report.last().expect("a row was pushed")));
     }
     println!("\nstep            outcome     wall");
     for line in &report {
         println!("{}", row(line));
+    }
+    // The same test runs in several steps.
+    left_out.sort();
+    left_out.dedup();
+    for line in &left_out {
+        println!("{line}");
     }
     Ok(report
         .iter()
@@ -121,6 +146,50 @@ fn cargo(ws: &Workspace, arguments: &[&str]) -> Result<Outcome> {
     execute(&mut ws.cargo(arguments))
 }
 
+/// `cargo test`, with what tests left out: a missing corpus, for one, is no failure everywhere.
+fn tests(ws: &Workspace, left_out: &mut Vec<String>, arguments: &[&str]) -> Result<Outcome> {
+    let mut command = ws.cargo(&[&["test"], arguments].concat());
+    let stderr = std::io::stderr();
+    if stderr.is_terminal() && std::env::var_os("CARGO_TERM_COLOR").is_none() {
+        command.env("CARGO_TERM_COLOR", "always");
+    }
+    let mut child = command
+        .stderr(Stdio::piped())
+        .spawn()
+        .with_context(|| format!("cannot run {command:?}"))?;
+    let pipe = child.stderr.take().context("stderr is piped")?;
+    left_out.extend(relay(BufReader::new(pipe), &mut stderr.lock())?);
+    Ok(outcome(child.wait()?.success()))
+}
+
+/// Passes on what comes line by line; returns the lines of tests that did not run.
+fn relay(from: impl BufRead, to: &mut impl Write) -> Result<Vec<String>> {
+    let mut left_out = Vec::new();
+    for line in from.split(b'\n') {
+        let line = [&line?[..], b"\n"].concat();
+        to.write_all(&line)?;
+        if line.starts_with(NOT_TESTED.as_bytes()) {
+            left_out.push(String::from_utf8_lossy(&line).trim_end().to_owned());
+        }
+    }
+    Ok(left_out)
+}
+
+/// Checks the libraries for wasm32.
+fn wasm(ws: &Workspace) -> Result<Outcome> {
+    let wanted = ["--print", "target-libdir", "--target", WASM];
+    let folder = Workspace::output_of(ws.command("rustc", &wanted))?;
+    if !Path::new(folder.trim()).is_dir() {
+        println!("the target {WASM} is missing: rustup target add {WASM}");
+        return Ok(Outcome::Failed);
+    }
+    let check = ["check", "--release", "--locked", "--target", WASM];
+    // The runtime brings format and shaders.
+    let runtime = ["-p", "vtex-runtime", "--no-default-features"];
+    let features = ["--features", "webgpu,tracer,ruzstd"];
+    cargo(ws, &[&check[..], &runtime, &features].concat())
+}
+
 /// Whether cargo-deny is there; says how to get it otherwise.
 fn has_deny(ws: &Workspace) -> bool {
     let version = Workspace::output_of(ws.cargo(&["deny", "--version"]));
@@ -156,6 +225,15 @@ mod tests {
         names.sort_unstable();
         names.dedup();
         assert_eq!(names.len(), STEPS.len());
+    }
+
+    #[test]
+    fn what_was_not_tested_is_collected() {
+        let output = b"Compiling\nNOT TESTED  a (b:1): the tiger: no corpus\n\xff\n";
+        let mut seen = Vec::new();
+        let left_out = relay(&output[..], &mut seen).unwrap();
+        assert_eq!(seen, output);
+        assert_eq!(left_out, ["NOT TESTED  a (b:1): the tiger: no corpus"]);
     }
 
     #[test]

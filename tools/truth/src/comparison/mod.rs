@@ -1,4 +1,4 @@
-//! A texture measured against its SVG at one zoom.
+//! Comparing a texture with its SVG at some zooms.
 
 mod page;
 mod windows;
@@ -12,36 +12,36 @@ use crate::reference::{Reference, SUPERSAMPLES};
 pub use page::{Column, Page, PageFile, Sizes, human_bytes};
 pub use windows::{EdgeFinder, WINDOWS};
 
-/// What is measured.
+/// What to measure.
 #[derive(Clone, Copy, Debug)]
 pub struct Terms {
     /// Pixels of the pictures' longer side.
     pub longer_px: u32,
-    /// Samples a pixel.
+    /// Samples per pixel.
     pub spp: u32,
-    /// Windows that a zoom above 1 is compared in.
+    /// Number of windows to compare at each zoom above 1.
     pub windows: u32,
     /// Whether the texture holds coverage only.
     pub mask: bool,
 }
 
-/// One window that was measured.
+/// The measurement in one window.
 #[derive(Clone, Copy, Debug)]
 pub struct Window {
-    /// Where it lies.
+    /// The part of the canvas.
     pub view: View,
-    /// What was found.
+    /// The figures.
     pub difference: Difference,
-    /// The worst pixel, uv of its centre.
+    /// Centre of the worst pixel, uv.
     pub worst_uv: [f64; 2],
 }
 
-/// All windows of one zoom.
+/// The measurements at one zoom.
 #[derive(Clone, Debug)]
 pub struct ZoomReport {
     /// Magnification; 1 shows the whole canvas.
     pub zoom: f64,
-    /// At least one.
+    /// One or more.
     pub windows: Vec<Window>,
 }
 
@@ -119,7 +119,7 @@ impl<'a> Comparison<'a> {
         self.finder.windows(zoom, self.terms.windows)
     }
 
-    /// One window at `zoom`; windows of several zooms lie about one point.
+    /// One window at `zoom`. Those of different zooms lie around the same point.
     ///
     /// # Errors
     /// When the SVG cannot be drawn.
@@ -143,8 +143,8 @@ impl<'a> Comparison<'a> {
         Ok(self.as_compared(picture))
     }
 
-    /// The truth's own noise in a window: PSNR of it with half the samples along each side of a
-    /// pixel, dB. No texture can be asked to come nearer.
+    /// The noise of the truth in a window, dB: its PSNR against the truth with half as many samples
+    /// along each side of a pixel. A texture cannot be expected to come nearer than that.
     ///
     /// # Errors
     /// When the SVG cannot be drawn.
@@ -156,7 +156,7 @@ impl<'a> Comparison<'a> {
         Ok(difference(&truth, &self.as_compared(coarse)).psnr_db)
     }
 
-    /// The picture that is measured for `picture`: itself, or its alpha for a mask.
+    /// The picture to measure in place of `picture`: its alpha for a mask, else itself.
     pub fn as_compared(&self, picture: Picture) -> Picture {
         if self.terms.mask {
             picture.alpha_as_grey()
@@ -165,10 +165,10 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    /// Measures at `zoom` what `shoot` makes of a shot.
+    /// Measures the pictures that `shoot` takes at `zoom`.
     ///
     /// # Errors
-    /// When the SVG cannot be drawn, and those of `shoot`.
+    /// When the SVG cannot be drawn or `shoot` fails.
     pub fn measure(
         &self,
         zoom: f64,

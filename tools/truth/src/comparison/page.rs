@@ -1,5 +1,5 @@
-//! A page that shows SVG, vtex and raster side by side. Links are relative; nothing is loaded
-//! from elsewhere.
+//! A page that shows SVG, vtex and raster side by side. It links to its own pictures only, by
+//! relative paths.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ use crate::TruthError;
 use crate::picture::{Difference, PSNR_CAP_DB, Picture, difference};
 use crate::texture::RasterTexture;
 
-/// What one drawing costs in each form.
+/// Sizes of one drawing as SVG, `.vtex` and raster.
 #[derive(Clone, Copy, Debug)]
 pub struct Sizes {
     svg_bytes: u64,
@@ -56,7 +56,7 @@ impl Column {
     }
 }
 
-/// Names of the columns, as in file names and headings.
+/// The columns: part of the file names, and heading.
 const COLUMNS: [(&str, &str); 3] = [
     ("svg", "SVG, drawn anew at this zoom"),
     ("vtex", ".vtex"),

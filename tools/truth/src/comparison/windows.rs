@@ -1,17 +1,18 @@
-//! Where a comparison looks when it zooms in: at edges.
+//! Which windows a comparison looks at when it zooms in: those at edges. Elsewhere a drawing is a
+//! flat colour, and every texture is right.
 
 use crate::TruthError;
 use crate::picture::{Picture, View, hash};
 use crate::reference::Reference;
 
-/// Windows a zoom above 1 is compared in where nothing else is asked for.
+/// Default number of windows to compare at each zoom above 1.
 pub const WINDOWS: u32 = 4;
-/// Difference of neighbouring pixels, of 255, that counts as an edge.
+/// Neighbouring pixels that differ by more than this, of 255, count as an edge.
 const EDGE_STEPS: f32 = 24.0;
-/// Pixels along each side of the pictures in which an edge is looked for more closely.
+/// Pixels along each side of the close-ups in which an edge is located more precisely.
 const CLOSE_UP_PX: u32 = 32;
 
-/// Finds places where an edge goes through, the same ones on every run.
+/// Finds windows with an edge in them: the same ones on every run.
 #[derive(Debug)]
 pub struct EdgeFinder<'a> {
     reference: &'a Reference,
@@ -30,7 +31,8 @@ impl<'a> EdgeFinder<'a> {
         }
     }
 
-    /// The `count` windows of `1 / zoom` of the canvas that are compared; at zoom 1 one, the whole.
+    /// The `count` windows to compare at `zoom`, each `1 / zoom` of the canvas along both sides. At
+    /// zoom 1 the only window is the whole canvas.
     ///
     /// # Errors
     /// When the reference cannot be drawn.
@@ -43,8 +45,8 @@ impl<'a> EdgeFinder<'a> {
             .collect()
     }
 
-    /// One window around an edge drawn by lot from `seed`. The edge does not depend on the zoom,
-    /// so that windows of one seed lie about one point.
+    /// One window around an edge that `seed` chooses at random. The choice does not depend on the
+    /// zoom, so windows of one seed lie around the same point.
     ///
     /// # Errors
     /// When the reference cannot be drawn.
@@ -62,8 +64,9 @@ impl<'a> EdgeFinder<'a> {
             return Ok([0.5; 2]);
         };
         let mut center = View::WHOLE.uv_from_px([f64::from(x) + 0.5, f64::from(y) + 0.5], size_px);
-        // Three pixels of the overview, then three of the last close-up, until a window
-        // of the wanted zoom is sure to hold the edge.
+        // The edge lies within three pixels of the overview. A window at a large zoom is smaller
+        // than that, so the edge is located in close-ups, each three pixels of the one before, until
+        // the window is certain to hold it.
         let mut extent = size_px.map(|side| 3.0 / f64::from(side));
         while extent[0].max(extent[1]) > 0.5 / zoom {
             let view = View {

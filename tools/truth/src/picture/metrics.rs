@@ -1,4 +1,4 @@
-//! How far a picture is from the truth.
+//! Metrics: how far a picture is from the truth.
 //!
 //! Both pictures are composited over white in linear light and sRGB-encoded to the scale
 //! \[0, 255\], without rounding. With `d` the difference of a channel of a pixel:
@@ -27,7 +27,7 @@ pub struct Difference {
     pub wrong_share: f64,
     /// Largest difference of a channel, in \[0, 255\].
     pub max_difference: f32,
-    /// The pixel that has it.
+    /// The pixel with the largest difference.
     pub max_at_px: [u32; 2],
 }
 
@@ -66,7 +66,8 @@ pub fn difference(truth: &Picture, picture: &Picture) -> Difference {
     }
 }
 
-/// How far two pictures of one size are apart in each pixel, in codes times `gain`, on black.
+/// The difference of two pictures of one size as a picture: sRGB codes, multiplied by `gain`, on
+/// black.
 ///
 /// # Panics
 /// When the sizes differ.

@@ -99,7 +99,7 @@ impl Picture {
         )
     }
 
-    /// sRGB-encoded red, green and blue over an opaque ground of linear grey `ground`.
+    /// sRGB-encoded red, green and blue, composited over an opaque grey of linear value `ground`.
     pub fn over(&self, ground: f32) -> Vec<[f32; 3]> {
         let over = |&[r, g, b, a]: &[f32; 4]| {
             [r, g, b].map(|c| srgb::encode((c + (1.0 - a) * ground).clamp(0.0, 1.0)))
@@ -107,7 +107,7 @@ impl Picture {
         self.pixels.iter().map(over).collect()
     }
 
-    /// Alpha as an opaque grey picture, for masks.
+    /// Alpha as an opaque grey picture: how masks are compared.
     pub fn alpha_as_grey(mut self) -> Self {
         for pixel in &mut self.pixels {
             *pixel = [pixel[3], pixel[3], pixel[3], 1.0];
@@ -137,7 +137,8 @@ pub fn encode_png(
     Ok(bytes)
 }
 
-/// Width and height with the longer side `longer_px` and the canvas' proportions, at least 1.
+/// Width and height in the proportions of the canvas: the longer side is `longer_px`, the other at
+/// least 1.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -1,30 +1,31 @@
-//! Shooting a picture of a texture: stratified samples a pixel, averaged in linear light.
+//! Taking a picture of a texture: stratified samples in each pixel, averaged in linear light.
 
 use rayon::prelude::*;
 use vtex_shaders::layout::BatchQuery;
 
 use super::{Picture, View};
 
-/// What picture is taken.
+/// Which picture to take.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shot {
     /// The part of the canvas that is shown.
     pub view: View,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
-    /// Samples a pixel; one sample is at the pixel's centre.
+    /// Samples per pixel. A single one lies at the centre of the pixel.
     pub spp: u32,
 }
 
 impl Shot {
     /// All lookups of pixel `(x, y)`.
     ///
-    /// The `n` samples of a pixel are one in each of `n` columns and one in each of `n` rows of
-    /// the pixel (and, for `n` a power of two, one in each box of every `n`-box grid between): a
-    /// Hammersley set, shifted and scrambled by a hash of the pixel. No clock, no state.
+    /// Divide a pixel into `n` columns or into `n` rows: each holds one of its `n` samples. If `n` is
+    /// a power of two, that also holds for all grids of `n` boxes between the two. The samples are
+    /// a Hammersley set, shifted and scrambled by a hash of the pixel, so that pixels differ and the
+    /// same picture has the same samples every time.
     ///
-    /// The footprint of a sample is the pixel's, its axes divided by `sqrt(n)`, so that the
-    /// footprints together have the pixel's area.
+    /// The footprint of a sample is that of the pixel with its axes divided by `sqrt(n)`, so that
+    /// the footprints of all samples have the area of the pixel.
     pub fn queries(self, x: u32, y: u32) -> impl Iterator<Item = BatchQuery> {
         let extent = self.view.extent();
         let axis = |a: usize| extent[a] / f64::from(self.size_px[a]) / f64::from(self.spp).sqrt();
@@ -49,11 +50,11 @@ impl Shot {
         }
         let [shift, scramble] = halves(key);
         let across = (f64::from(sample) + unit(shift)) / f64::from(self.spp);
-        // Jitter below the resolution of `n` strata comes from the scramble's low bits.
+        // The low bits of the scramble place the sample inside its stratum.
         [across, unit(sample.reverse_bits() ^ scramble)]
     }
 
-    /// Shoots the picture with `lookup(uv, footprint)`, which returns linear light, premultiplied.
+    /// Takes the picture with `lookup(uv, footprint)`, which returns linear light, premultiplied.
     pub fn shoot(self, lookup: impl Fn([f32; 2], [f32; 4]) -> [f32; 4] + Sync) -> Picture {
         let rows = (0..self.size_px[1]).into_par_iter().map(|y| {
             let pixel = |x| {
@@ -70,7 +71,7 @@ impl Shot {
         }
     }
 
-    /// Shoots the picture with a batch of lookups at a time, for a GPU.
+    /// Takes the picture with batches of lookups, for a GPU.
     ///
     /// # Errors
     /// Those of `lookup`.
@@ -78,7 +79,7 @@ impl Shot {
         self,
         mut lookup: impl FnMut(&[BatchQuery]) -> Result<Vec<[f32; 4]>, E>,
     ) -> Result<Picture, E> {
-        /// Queries a batch holds at most: 32 MiB of them, a quarter of what a binding may hold.
+        /// Most queries in a batch: 32 MiB, a quarter of what a binding may hold.
         const BATCH_QUERIES: u32 = 1 << 20;
         let row_queries = self.size_px[0].saturating_mul(self.spp).max(1);
         let rows_at_once = (BATCH_QUERIES / row_queries).max(1);
@@ -112,7 +113,7 @@ fn mean(colors: impl Iterator<Item = [f32; 4]>, count: u32) -> [f32; 4] {
     sum.map(|channel| channel / count as f32)
 }
 
-/// Steele, Lea, Flood 2014: the finaliser of `SplitMix64`.
+/// A hash of 64 bits: the finaliser of `SplitMix64` (Steele, Lea, Flood 2014).
 pub fn hash(key: u64) -> u64 {
     let mut z = key.wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

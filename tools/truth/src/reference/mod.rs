@@ -1,15 +1,23 @@
 //! The truth: resvg with crisp edges, supersampled, averaged in linear light.
 //!
-//! resvg draws the SVG about 16 times as fine as wanted with anti-aliasing off, so every fine pixel
-//! is an exact point sample at its centre; the 257 of a pixel are averaged in linear light,
-//! premultiplied. They lie on a turned lattice (`lattice.rs`): on one along the axes a
-//! vertical edge is in one of 16 places, and beside black that alone costs 50 of 255 codes. The
-//! scale is exact: uv \[0, 1\] maps to the picture's edges in both directions, whatever the
-//! rounding of the canvas' size to whole pixels. Strokes of plain drawings are expanded at the scale
-//! of the picture (`plain.rs`).
+//! **Crisp edges.** resvg draws the SVG about 16 times as fine as wanted, with anti-aliasing off, so
+//! that every fine pixel is an exact point sample at its centre. resvg's own anti-aliasing would be
+//! no truth: it blends sRGB-encoded colours, and its coverage comes from four rows in
+//! a pixel.
+//!
+//! **Supersampling.** The samples of a pixel are averaged in linear light, premultiplied. They lie
+//! on a turned grid (`sample_pattern.rs`), 257 in a pixel: with an upright grid of 16 x 16 a
+//! vertical edge has only 16 different places in a pixel, and next to black a step from one to the
+//! next is up to 50 of 255 sRGB codes. Filters, patterns and images depend on the axes, so drawings
+//! that have some are drawn upright, with 256 samples.
+//!
+//! **Scale.** uv \[0, 1\] maps exactly to the picture's edges in both directions, even where the
+//! proportions of the picture are not quite those of the canvas because its size is whole pixels.
+//!
+//! **Strokes** of plain drawings are expanded at the scale of the picture (`plain.rs`).
 
-mod lattice;
 mod plain;
+mod sample_pattern;
 mod strokes;
 
 use std::sync::Arc;
@@ -20,12 +28,13 @@ use usvg::fontdb;
 
 use crate::picture::{Picture, View};
 use crate::{TruthError, srgb};
-use lattice::SampleLattice;
 use plain::{Outlines, PlainPaths};
+use sample_pattern::SamplePattern;
 
 /// Samples along each side of a pixel in [`Reference::render`].
 pub const SUPERSAMPLES: u32 = 16;
-/// Fine pixels a tile's side has, about: 16 MiB a tile, whatever the picture's size.
+/// Fine pixels along a tile's side, roughly. A picture is drawn in tiles of 16 MiB, so that its size
+/// does not decide how much memory a thread needs.
 const TILE_FINE_PX: u32 = 2048;
 
 /// Edges in the rendering of [`Reference`].
@@ -41,9 +50,9 @@ pub enum Edges {
 #[derive(Debug)]
 pub struct Reference {
     tree: usvg::Tree,
-    /// The same drawing where it is paths only.
+    /// The same drawing, if it consists of paths in solid colours only.
     plain: Option<PlainPaths>,
-    /// Whether resvg draws the tree turned as it draws it upright.
+    /// Whether the drawing looks the same when it is drawn turned.
     turns: bool,
 }
 
@@ -51,7 +60,7 @@ impl Reference {
     /// Parses an SVG (or gzipped SVG). Outside images are not loaded.
     ///
     /// # Errors
-    /// When it is not an SVG; the message is usvg's, the caller names the file.
+    /// usvg's message, when it is not an SVG. The caller knows the name of the file.
     pub fn parse(svg: &[u8], fonts: Arc<fontdb::Database>, edges: Edges) -> Result<Self, String> {
         let mut options = usvg::Options {
             fontdb: fonts,
@@ -61,9 +70,9 @@ impl Reference {
             options.shape_rendering = usvg::ShapeRendering::CrispEdges;
             options.text_rendering = usvg::TextRendering::OptimizeSpeed;
         }
-        // usvg's own resolver reads any local file an SVG names.
+        // usvg's own resolver would read any local file that the SVG names.
         options.image_href_resolver.resolve_string = Box::new(|_, _| None);
-        // Glyphs of another face would be compared otherwise.
+        // The same faces as a bake chooses; with others, glyphs would differ.
         options.font_resolver.select_font = vtex_baker::font_selector();
         let tree = usvg::Tree::from_data(svg, &options).map_err(|error| error.to_string())?;
         let plain = match edges {
@@ -98,11 +107,11 @@ impl Reference {
         size_px: [u32; 2],
         samples: u32,
     ) -> Result<Picture, TruthError> {
-        let lattice = SampleLattice::new(samples, self.turns);
+        let pattern = SamplePattern::new(samples, self.turns);
         let side_px = (TILE_FINE_PX / samples).max(1);
         let [columns, rows] = size_px.map(|side| side.div_ceil(side_px));
         let table = srgb::decode_table();
-        let outlines = self.outlines(view, size_px, &lattice);
+        let outlines = self.outlines(view, size_px, &pattern);
         let tiles = (0..columns * rows)
             .into_par_iter()
             .map(|tile| {
@@ -114,12 +123,12 @@ impl Reference {
                     size_px,
                     origin_px,
                     tile_px,
-                    &lattice,
+                    &pattern,
                 )?;
                 Ok((
                     origin_px,
                     tile_px,
-                    average(&fine, tile_px, &lattice, &table),
+                    average(&fine, tile_px, &pattern, &table),
                 ))
             })
             .collect::<Result<Vec<_>, TruthError>>()?;
@@ -138,15 +147,15 @@ impl Reference {
     /// # Errors
     /// When the pixels cannot be allocated.
     pub fn rasterize(&self, size_px: [u32; 2]) -> Result<Pixmap, TruthError> {
-        let upright = SampleLattice::new(1, false);
+        let upright = SamplePattern::new(1, false);
         self.draw(None, View::WHOLE, size_px, [0, 0], size_px, &upright)
     }
 
-    /// Plain paths in the fine pixels of a picture.
-    fn outlines(&self, view: View, size_px: [u32; 2], lattice: &SampleLattice) -> Option<Outlines> {
+    /// The plain paths in fine pixels of the picture; `None` where resvg has to draw.
+    fn outlines(&self, view: View, size_px: [u32; 2], pattern: &SamplePattern) -> Option<Outlines> {
         let plain = self.plain.as_ref()?;
-        let affine = self.fine_from_canvas(view, size_px, [0, 0], size_px, lattice);
-        let size = lattice.fine_size(size_px).map(f64::from);
+        let affine = self.fine_from_canvas(view, size_px, [0, 0], size_px, pattern);
+        let size = pattern.fine_size(size_px).map(f64::from);
         Some(plain.outlines(kurbo::Affine::new(affine), size))
     }
 
@@ -157,18 +166,18 @@ impl Reference {
         size_px: [u32; 2],
         origin_px: [u32; 2],
         tile_px: [u32; 2],
-        lattice: &SampleLattice,
+        pattern: &SamplePattern,
     ) -> [f64; 6] {
         let canvas = self.canvas_size();
         let extent = view.extent();
         let corner = [view.u0, view.v0];
         let size = size_px.map(f64::from);
-        // Canvas to pixels of the tile, along each axis.
+        // From the canvas to pixels of the tile, along each axis.
         let scale = [0, 1].map(|axis| size[axis] / (canvas[axis] * extent[axis]));
         let shift = [0, 1]
             .map(|axis| -corner[axis] / extent[axis] * size[axis] - f64::from(origin_px[axis]));
-        let [along_x, along_y] = [[scale[0], 0.0], [0.0, scale[1]]].map(|v| lattice.turn(v));
-        let [e, f] = lattice.fine_from_px(shift, tile_px);
+        let [along_x, along_y] = [[scale[0], 0.0], [0.0, scale[1]]].map(|v| pattern.turn(v));
+        let [e, f] = pattern.fine_from_px(shift, tile_px);
         [along_x[0], along_x[1], along_y[0], along_y[1], e, f]
     }
 
@@ -179,15 +188,15 @@ impl Reference {
         size_px: [u32; 2],
         origin_px: [u32; 2],
         tile_px: [u32; 2],
-        lattice: &SampleLattice,
+        pattern: &SamplePattern,
     ) -> Result<Pixmap, TruthError> {
-        let [width, height] = lattice.fine_size(tile_px);
+        let [width, height] = pattern.fine_size(tile_px);
         let mut pixmap = Pixmap::new(width, height).ok_or(TruthError::Memory)?;
         if let Some(outlines) = outlines {
-            let corner = lattice.fine_corner(origin_px, size_px, tile_px);
+            let corner = pattern.fine_corner(origin_px, size_px, tile_px);
             outlines.paint(corner, &mut pixmap.as_mut());
         } else {
-            let affine = self.fine_from_canvas(view, size_px, origin_px, tile_px, lattice);
+            let affine = self.fine_from_canvas(view, size_px, origin_px, tile_px, pattern);
             let [a, b, c, d, e, f] = affine.map(narrow);
             let transform = Transform::from_row(a, b, c, d, e, f);
             resvg::render(&self.tree, transform, &mut pixmap.as_mut());
@@ -196,8 +205,8 @@ impl Reference {
     }
 }
 
-/// Whether resvg draws `tree` turned by some degrees as it draws it upright: filters, patterns and
-/// images are resampled or taken along the axes.
+/// Whether `tree` looks the same when resvg draws it turned by some degrees. Filters, patterns and
+/// images do not: resvg works along the axes of the picture or resamples there.
 fn turns(tree: &usvg::Tree) -> bool {
     tree.filters().is_empty() && tree.patterns().is_empty() && !holds_image(tree.root())
 }
@@ -225,7 +234,7 @@ fn narrow(value: f64) -> f32 {
 fn average(
     fine: &Pixmap,
     tile_px: [u32; 2],
-    lattice: &SampleLattice,
+    pattern: &SamplePattern,
     table: &[f32; 256],
 ) -> Vec<[f32; 4]> {
     let width = fine.width() as usize;
@@ -234,14 +243,14 @@ fn average(
     for y in 0..tile_px[1] {
         for x in 0..tile_px[0] {
             let mut sum = [0.0_f32; 4];
-            for (row, columns) in lattice.samples_of([x, y], tile_px) {
+            for (row, columns) in pattern.samples_of([x, y], tile_px) {
                 let start = row * width;
                 for texel in &texels[start + columns.start..start + columns.end] {
                     let linear = linear_premultiplied(*texel, table);
                     sum = std::array::from_fn(|c| sum[c] + linear[c]);
                 }
             }
-            pixels.push(sum.map(|channel| channel / lattice.sample_count() as f32));
+            pixels.push(sum.map(|channel| channel / pattern.sample_count() as f32));
         }
     }
     pixels

@@ -1,8 +1,8 @@
-//! Drawings of nothing but paths in solid colours, painted path by path with resvg's rasteriser.
+//! Drawings of paths in solid colours only, painted path by path with resvg's rasteriser.
 //!
-//! Everything is as resvg does it, but for two things: strokes are expanded by [`strokes`],
-//! and points are brought to a tile's pixels in f64, where tiny-skia's transforms lose a quarter of
-//! a fine pixel at 256x.
+//! They look as resvg draws them, with two differences that matter at large zooms: [`strokes`]
+//! expands strokes, and points are transformed to a tile's pixels in f64. In tiny-skia's f32 they
+//! lose a quarter of a fine pixel at 256x.
 
 use kurbo::{Affine, BezPath, Cap, Join, Point, Rect};
 use resvg::tiny_skia::{self, Color, FillRule, Paint, PathBuilder, PixmapMut, Transform};
@@ -53,14 +53,14 @@ enum Area {
 }
 
 impl PlainPaths {
-    /// `None` when the tree holds anything else: effects, opacity of groups, other paints, images.
+    /// `None` when the tree holds anything else: effects, groups with opacity, other paints, images.
     pub(crate) fn new(tree: &usvg::Tree) -> Option<Self> {
         let mut paths = Vec::new();
         gather(tree.root(), Affine::IDENTITY, &mut paths)?;
         Some(Self { paths })
     }
 
-    /// What shows in a picture of `size_px`.
+    /// The outlines that reach into a picture of `size_px`.
     pub(crate) fn outlines(&self, px_from_canvas: Affine, size_px: [f64; 2]) -> Outlines {
         let window = Rect::new(0.0, 0.0, size_px[0], size_px[1]).inflate(1.0, 1.0);
         let outline = |plain: &PlainPath| Outline {
@@ -82,7 +82,7 @@ impl PlainPath {
                 Area::Path(path, bounds, *rule)
             }
             Part::Stroke(style) => {
-                // At least what it stretches anything by.
+                // The Frobenius norm: no vector is stretched by more, so the tolerance holds.
                 let [a, b, c, d, _, _] = px_from_path.as_coeffs();
                 let scale = (a * a + b * b + c * c + d * d).sqrt();
                 if !(scale.is_finite() && scale > 0.0) {
@@ -111,7 +111,7 @@ fn meets(a: Rect, b: Rect) -> bool {
 }
 
 impl Outlines {
-    /// Paints with hard edges the tile whose corner is at `origin_px`.
+    /// Paints the tile whose corner is at `origin_px`, with hard edges.
     pub(crate) fn paint(&self, origin_px: [f64; 2], pixmap: &mut PixmapMut<'_>) {
         let corner = Point::new(origin_px[0], origin_px[1]);
         let size = (f64::from(pixmap.width()), f64::from(pixmap.height()));
@@ -240,7 +240,7 @@ fn gather_path(
             usvg::FillRule::EvenOdd => FillRule::EvenOdd,
         };
         let color = solid(fill.paint(), fill.opacity())?;
-        // As resvg: what has no area is not filled.
+        // resvg does not fill a path without area either.
         if bounds.width() > 0.0 && bounds.height() > 0.0 {
             parts.push(plain(Part::Fill(rule), color));
         }
@@ -256,7 +256,7 @@ fn gather_path(
     Some(())
 }
 
-/// `None` for clipped miters, which are resvg's.
+/// `None` for clipped miters, which are left to resvg.
 fn style(stroke: &usvg::Stroke) -> Option<StrokeStyle> {
     let dashes = stroke.dasharray().unwrap_or_default();
     Some(StrokeStyle {

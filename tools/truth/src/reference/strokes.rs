@@ -1,17 +1,17 @@
-//! Strokes as the union of simple pieces: a rectangle along each bit of the line, a wedge at each
-//! corner, a cap at each end (SVG 2 sec. 13.5). Slow, plain, and in f64: the truth for strokes.
+//! Strokes as the union of simple pieces: a rectangle along each straight bit of the line, a wedge
+//! at each corner, a cap at each end (SVG 2 sec. 13.5). It is slow and simple and computes in f64.
 //!
-//! tiny-skia's own expansion (0.12) approximates arcs to a quarter of a user unit whatever the
-//! scale, and is off by a hundredth of the width along some cubics whose first handle has no
-//! length: nine pixels at 256x, measured against distances to the curve.
+//! tiny-skia 0.12 cannot draw the truth for strokes. It approximates arcs to a quarter of a user
+//! unit at every scale. Along some cubics whose first handle has no length it is off by a hundredth
+//! of the width, which is nine pixels at 256x, measured against distances to the curve.
 
 use kurbo::{Cap, Join, ParamCurve as _, PathEl, PathSeg, Point, Vec2};
 
-/// Halvings of a segment: at a cusp its direction never settles.
+/// Most halvings of a segment. The direction at a cusp never settles, so that halving would not end.
 const MAX_DEPTH: u32 = 14;
-/// Share of a segment's parameter that the bits at its ends take.
+/// Length of the first and last bit of a segment, in its parameter from 0 to 1.
 const END_BIT: f64 = 1e-5;
-/// Dashes of one path that are drawn.
+/// Most dashes of one path; the rest are not drawn.
 const MAX_DASHES: usize = 1_000_000;
 
 /// How a path is stroked, in the path's own space.
@@ -113,8 +113,8 @@ impl Polyline {
 
     fn add(&mut self, segment: &PathSeg, tolerance: f64, angle: f64) {
         if !matches!(segment, PathSeg::Line(_)) {
-            // Joins see the direction at the very end, not that of a bit, on which the tip of a
-            // miter depends.
+            // The tip of a miter depends on the direction at the very end of the segment. A short
+            // bit there has that direction; a longer one would not.
             let ends = [END_BIT, 1.0 - END_BIT];
             self.push(segment.eval(ends[0]), false);
             self.halve(segment, ends, tolerance, angle, MAX_DEPTH);
@@ -226,7 +226,7 @@ impl Polyline {
 
 struct Sink<'a> {
     style: &'a StrokeStyle,
-    /// Of the bits of an arc.
+    /// Largest angle between two bits of an arc.
     angle: f64,
     pieces: Vec<Piece>,
 }
@@ -250,8 +250,8 @@ impl Sink<'_> {
         let sides: Vec<Vec2> = (0..bits).map(side).collect();
         for k in 0..bits {
             let (p, q, n) = (points[k], next(k), sides[k]);
-            // Split at the line, where wedges begin: edges that pieces share are the same
-            // for the rasteriser, and no hole shows between them.
+            // The middle line is part of the rectangle's outline, since wedges begin there: pieces
+            // then share whole edges, the rasteriser rounds both alike, and no hole shows between.
             self.push(vec![p + n, p, p - n, q - n, q, q + n]);
         }
         for k in 0..points.len() {
@@ -270,7 +270,7 @@ impl Sink<'_> {
         }
     }
 
-    /// `from` and `to` point to the left edges before and behind the corner.
+    /// `from` and `to` point from the line to its left edge, before and after the corner.
     fn join(&mut self, p: Point, from: Vec2, to: Vec2, corner: bool) {
         // The gap is on the outer side of the turn.
         let (from, to) = if from.cross(to) > 0.0 {
@@ -294,7 +294,7 @@ impl Sink<'_> {
         }
     }
 
-    /// `left` points to the left edge where the line goes on from `p`.
+    /// `left` points to the left edge of the line that leaves `p`.
     fn cap(&mut self, p: Point, left: Vec2) {
         match self.style.cap {
             Cap::Butt => {}
@@ -312,7 +312,7 @@ impl Sink<'_> {
         }
     }
 
-    /// A line of no length shows by its caps.
+    /// A line without length, of which only the caps show.
     fn dot(&mut self, p: Point) {
         let right = Vec2::new(self.style.radius, 0.0);
         let up = Vec2::new(0.0, self.style.radius);
@@ -330,7 +330,7 @@ impl Sink<'_> {
         }
     }
 
-    /// A pie from `p`, from its edge `from` by `turn` radians.
+    /// A sector of a disc around `p`, from the radius `from` on by `turn` radians.
     fn fan(&mut self, p: Point, from: Vec2, turn: f64) {
         let bits = (turn.abs() / self.angle).ceil().max(1.0);
         let mut pie = vec![p];

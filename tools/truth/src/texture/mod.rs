@@ -22,8 +22,8 @@ pub fn pack_options(filter: FilterMode) -> PackOptions {
     }
 }
 
-/// As [`pack_options`], showing the canvas as it is whatever texture matrix and address mode the
-/// file asks for: for comparisons with the drawing.
+/// As [`pack_options`], without the texture matrix and address modes of the file, so that the texture
+/// shows the canvas as the SVG does.
 pub fn canvas_options(filter: FilterMode) -> PackOptions {
     PackOptions {
         address: Some([AddressMode::Clamp; 2]),
@@ -35,27 +35,27 @@ pub fn canvas_options(filter: FilterMode) -> PackOptions {
 /// Takes pictures of one texture.
 #[derive(Debug)]
 pub enum Shooter {
-    /// With the evaluator in Rust.
+    /// On the CPU, with the evaluator in Rust.
     Cpu {
         /// The packed texture.
         words: Vec<u32>,
     },
-    /// With the evaluator in WGSL.
+    /// On a GPU, with the evaluator in WGSL.
     Gpu {
-        /// The uploaded texture; boxed, for it is large.
+        /// The uploaded texture; boxed, since it is large.
         sampler: Box<BatchSampler>,
     },
 }
 
 impl Shooter {
-    /// Prepares a texture for pictures by the evaluator in Rust.
+    /// Prepares a texture for pictures on the CPU.
     pub fn on_cpu(file: &VtexFile, pack: PackOptions) -> Self {
         Self::Cpu {
             words: vtex_shaders::pack(file, &pack),
         }
     }
 
-    /// Prepares a texture for pictures on a GPU that is open already.
+    /// Prepares a texture for pictures on a GPU that is already open.
     ///
     /// # Errors
     /// When the texture does not fit the GPU.

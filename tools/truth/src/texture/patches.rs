@@ -1,18 +1,19 @@
-//! How much of the canvas raster patches take.
+//! How much of the canvas raster patches cover.
 
 use std::ops::Range;
 
 use vtex_format::{COVERAGE_IMAGE, EMBEDDED_SOURCE, Image, VtexFile};
 
-/// Places along each side of the canvas that are looked at: a share is right to about 1 in 512.
+/// Points along each side of the canvas at which patches are looked up: a share is right to about 1
+/// in 512.
 const SIDE: u32 = 512;
 
-/// The raster patches of a file. Images of the SVG that keep their own texels are none.
+/// The raster patches of a file. Images embedded in the SVG keep their own texels and do not count.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PatchCover {
-    /// How many there are.
+    /// Number of patches.
     pub count: usize,
-    /// Share of the canvas where at least one of them shows something, in \[0, 1\].
+    /// Share of the canvas where at least one patch is not transparent, in \[0, 1\].
     pub area: f64,
 }
 

@@ -1,4 +1,5 @@
-//! What engines do today: the SVG rasterised once, with mips, looked up trilinearly.
+//! The raster texture that engines use today: the SVG rasterised once, with mips and trilinear
+//! lookups.
 
 use rayon::prelude::*;
 
@@ -6,17 +7,17 @@ use crate::picture::{Picture, Shot, encode_png, fit_size};
 use crate::reference::Reference;
 use crate::{TruthError, srgb};
 
-/// Texels of the longer side that a careful user gives a sign today.
+/// Texels along the longer side of a large raster texture today.
 pub const TODAY_TEXELS: u32 = 4096;
 
-/// One mip level: RGBA8, red, green and blue linear light, premultiplied, then sRGB-encoded.
+/// One mip level, RGBA8: colours are premultiplied in linear light, then sRGB-encoded.
 #[derive(Debug)]
 struct Level {
     size: [u32; 2],
     texels: Vec<[u8; 4]>,
 }
 
-/// A raster texture as an importer would make it.
+/// A raster texture as an engine's importer would make it.
 #[derive(Debug)]
 pub struct RasterTexture {
     levels: Vec<Level>,
@@ -36,7 +37,8 @@ impl RasterTexture {
             0 => [0; 4],
             255 => [r, g, b, 255],
             _ => {
-                // resvg premultiplies encoded colours; a filterable texel wants linear ones.
+                // resvg premultiplies sRGB-encoded colours. Filtering is right only for colours that
+                // were premultiplied in linear light.
                 let alpha = f32::from(a) / 255.0;
                 let [r, g, b] = [r, g, b].map(|c| {
                     let straight = (f32::from(c) / f32::from(a)).min(1.0);
@@ -134,7 +136,7 @@ impl Level {
         self.texels[y * self.size[0] as usize + x]
     }
 
-    /// The next level: averages of 2 x 2 texels in linear light, the last one repeated.
+    /// The next level: averages of 2 x 2 texels in linear light. A side of one texel is repeated.
     fn halved(&self, decode: &[f32; 256]) -> Self {
         let size = self.size.map(|side| (side / 2).max(1));
         let average = |i: u32| {

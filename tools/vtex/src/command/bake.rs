@@ -13,19 +13,18 @@ use vtex_baker::BakeConfig;
 use vtex_format::Warning;
 use vtex_truth::comparison::human_bytes;
 
-use crate::args::Bake;
 use crate::baking;
-use crate::cache::Cache;
-use crate::console::{Console, Format};
-use crate::failure::{ExitCode, Failure, Outcome};
-use crate::fonts::FontLibrary;
-use crate::images::ImageFolders;
-use crate::input::{self, Input};
-use crate::output;
-use crate::wire::Summary;
-use crate::workers::Workers;
+use crate::baking::cache::Cache;
+use crate::baking::fonts::FontLibrary;
+use crate::baking::images::ImageFolders;
+use crate::baking::wire::Summary;
+use crate::baking::workers::Workers;
+use crate::cli::args::Bake;
+use crate::cli::{Console, ExitCode, Failure, Format, Outcome};
+use crate::files::input::{self, Input};
+use crate::files::output;
 
-/// Warnings shown for one file unless `--verbose`.
+/// Most warnings printed for one file without `--verbose`.
 const WARNINGS_SHOWN: usize = 3;
 
 /// Runs `vtex bake`.
@@ -49,13 +48,13 @@ struct Pair {
     output: PathBuf,
 }
 
-/// What came of one input.
+/// The result for one input.
 struct Baked {
     code: ExitCode,
     summary: Value,
     line: String,
     warnings: Vec<Warning>,
-    /// Files besides the input that were read.
+    /// Other files that the bake read, such as images.
     files: Vec<PathBuf>,
 }
 
@@ -66,7 +65,7 @@ struct Job<'a> {
     fonts: FontLibrary,
     cache: Option<Cache>,
     pairs: Vec<Pair>,
-    /// How many files are baked at a time.
+    /// Number of files baked at the same time.
     lanes: usize,
     workers: Workers,
 }
@@ -76,20 +75,20 @@ impl<'a> Job<'a> {
         let to_stdout = is_stdout(&args.output);
         if to_stdout && console.format == Format::Json {
             return Err(Failure::usage(
-                "-o - and --format json both want standard output",
+                "-o - and --format json cannot both write to standard output",
             ));
         }
         if args.check && to_stdout {
             return Err(Failure::usage(
-                "--check needs files to compare with, not -o -",
+                "--check compares with files, so -o cannot be -",
             ));
         }
-        let config = baking::config(&args.options)?;
+        let config = baking::config(&args.options);
         config
             .check()
             .map_err(|error| Failure::usage(error.to_string()))?;
         let pairs = pair_up(input::expand(&args.inputs)?, &args.output)?;
-        // The workers would say the same, but each for itself.
+        // Checked here too, so that a missing folder is reported once and not by every worker.
         ImageFolders::new(&args.options.allow_images)?;
         let threads = rayon::current_num_threads();
         let lanes = threads.min(pairs.len()).max(1);
@@ -118,7 +117,8 @@ impl<'a> Job<'a> {
                 progress.step();
             }
         };
-        // Each lane waits for its worker: these are threads of their own, not the pool's.
+        // A lane blocks until its worker process answers. Threads of the pool must not block, so
+        // lanes are threads of their own.
         std::thread::scope(|scope| {
             for _ in 0..self.lanes {
                 scope.spawn(lane);
@@ -131,8 +131,8 @@ impl<'a> Job<'a> {
             .collect()
     }
 
-    /// Indices of the pairs. A large file that comes last would keep one lane busy while the
-    /// others are done.
+    /// Indices of the pairs, the largest input first: a large file that started last would keep one
+    /// lane busy after all others have finished.
     fn largest_first(&self) -> Vec<usize> {
         let bytes = |pair: &Pair| fs::metadata(&pair.input.path).map_or(0, |file| file.len());
         let sizes: Vec<u64> = self.pairs.iter().map(bytes).collect();
@@ -160,7 +160,7 @@ impl<'a> Job<'a> {
             }
         };
         if let (false, Some(cache), Some(key)) = (cached, &self.cache, &key)
-            // What hangs on other files is not known by its own bytes.
+            // The key holds the bytes of the SVG only, not those of other files that it names.
             && !summary.names_files
         {
             cache.put(key, &bytes)?;
@@ -175,8 +175,8 @@ impl<'a> Job<'a> {
         Ok(self.describe(pair, summary, spent, code))
     }
 
-    /// Whether outside images are allowed decides what becomes of drawings that name some; bakes
-    /// that hang on such files are not kept.
+    /// The key says whether image files are allowed, since an SVG that names some bakes differently
+    /// without them. Bakes that read image files are not kept at all.
     fn cache_key(&self, svg: &[u8]) -> String {
         let images = match self.args.options.allow_images.as_slice() {
             [] => "",
@@ -186,7 +186,7 @@ impl<'a> Job<'a> {
         Cache::key(svg, &self.config, &besides)
     }
 
-    /// Writes the bytes, or with `--check` compares them with what is there.
+    /// Writes the bytes, or compares them with the existing file for `--check`.
     fn deliver(&self, pair: &Pair, bytes: &[u8]) -> Outcome<ExitCode> {
         if self.args.check {
             let same = input::read(&pair.output).is_ok_and(|there| there == bytes);
@@ -219,7 +219,7 @@ impl<'a> Job<'a> {
         let files = summary.paths();
         let verdict = match (self.args.check, code) {
             (true, ExitCode::Ok) => "up to date: ",
-            (true, _) => "missing or different, bake it again: ",
+            (true, _) => "missing or different; bake it again: ",
             _ => "",
         };
         let output = pair.output.display();
@@ -283,7 +283,7 @@ impl<'a> Job<'a> {
     }
 
     fn warn(&self, path: &Path, warnings: &[Warning]) {
-        use crate::console::Verbosity::Verbose;
+        use crate::cli::Verbosity::Verbose;
         let all = self.console.verbosity == Verbose;
         let shown = if all { warnings.len() } else { WARNINGS_SHOWN };
         for warning in warnings.iter().take(shown) {
@@ -293,8 +293,10 @@ impl<'a> Job<'a> {
         }
         if warnings.len() > shown {
             let more = warnings.len() - shown;
-            self.console
-                .note(&format!("{}: {more} more warnings (-v)", path.display()));
+            self.console.note(&format!(
+                "{}: {more} more warnings; -v prints them all",
+                path.display()
+            ));
         }
     }
 }
@@ -302,7 +304,7 @@ impl<'a> Job<'a> {
 struct Spent {
     seconds: f64,
     cached: bool,
-    /// Bytes of the bake.
+    /// Size of the bake.
     bytes: usize,
 }
 
@@ -310,19 +312,19 @@ fn is_stdout(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// Decides where each input goes.
+/// Finds the output path of each input.
 fn pair_up(inputs: Vec<Input>, out: &Path) -> Outcome<Vec<Pair>> {
     let alone = matches!(inputs.as_slice(), [input] if input.named);
     if is_stdout(out) && !alone {
-        return Err(Failure::usage("-o - takes one input"));
+        return Err(Failure::usage("-o - takes exactly one input"));
     }
     let into_folder = !is_stdout(out) && (!alone || out.is_dir() || ends_with_slash(out));
     let mut pairs: Vec<Pair> = Vec::with_capacity(inputs.len());
     for mut input in inputs {
         if into_folder && input.is_stdin() {
-            return Err(Failure::usage("standard input needs a file name after -o"));
+            return Err(Failure::usage("when the input is -, -o must name a file"));
         }
-        // In a folder that a bake fills, missing folders are made.
+        // Missing folders are created for outputs in a folder, not for an output named by itself.
         input.named &= !into_folder;
         let output = match into_folder {
             true => out.join(&input.relative).with_extension("vtex"),
@@ -345,8 +347,8 @@ fn ends_with_slash(path: &Path) -> bool {
     path.to_string_lossy().ends_with(std::path::MAIN_SEPARATOR)
 }
 
-/// One Makefile rule a file, and one without recipe for each input, so that a removed input does
-/// not stop make.
+/// One Makefile rule for each output, and a rule without recipe for each input: without that, make
+/// stops with an error when an input was removed.
 fn depfile_text<'a>(bakes: impl Iterator<Item = (&'a Pair, &'a Outcome<Baked>)>) -> String {
     let mut text = String::new();
     let mut inputs = BTreeSet::new();
@@ -365,7 +367,7 @@ fn depfile_text<'a>(bakes: impl Iterator<Item = (&'a Pair, &'a Outcome<Baked>)>)
     text
 }
 
-/// As make reads names: blanks and `#` with a backslash, `$` doubled.
+/// A path as make reads it: a backslash before blanks and `#`, `$` doubled.
 fn escape(path: &Path) -> String {
     let mut text = String::new();
     for c in path.to_string_lossy().chars() {

@@ -10,11 +10,11 @@ use vtex_truth::picture::difference_picture;
 use vtex_truth::reference::{Edges, Reference};
 use vtex_truth::texture::{RasterTexture, Shooter, TODAY_TEXELS, canvas_options};
 
-use crate::args::Compare;
-use crate::console::{Console, Format};
-use crate::failure::{ExitCode, Failure, Outcome};
-use crate::fonts::FontLibrary;
-use crate::{input, output, texture};
+use crate::baking::fonts::FontLibrary;
+use crate::cli::args::Compare;
+use crate::cli::{Console, ExitCode, Failure, Format, Outcome};
+use crate::files::{input, output};
+use crate::texture;
 
 /// Runs `vtex compare`.
 pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {
@@ -24,7 +24,7 @@ pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {
         .find(|&&zoom| !(1.0..=65_536.0).contains(&zoom))
     {
         return Err(Failure::usage(format!(
-            "--zoom {zoom}: a zoom is 1 to 65536"
+            "--zoom {zoom}: a zoom must be between 1 and 65536"
         )));
     }
     let svg = input::read(&args.svg)?;
@@ -66,13 +66,13 @@ pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {
     Ok(verdict(&args, &reports, console))
 }
 
-/// The truth's own noise in the worst window of each zoom.
+/// The noise of the truth in the worst window of each zoom.
 fn noise_db(comparison: &Comparison<'_>, reports: &[ZoomReport]) -> Outcome<Vec<f64>> {
     let worst = reports.iter().map(|report| report.worst().view);
     worst.map(|view| Ok(comparison.noise_db(view)?)).collect()
 }
 
-/// The worst window of all, as three PNGs.
+/// Writes three PNGs of the worst window of all zooms.
 fn write_pictures(
     folder: &Path,
     comparison: &Comparison<'_>,
@@ -162,7 +162,7 @@ fn text(reports: &[ZoomReport], noise_db: Option<&[f64]>) -> String {
     }
     for (report, noise_db) in reports.iter().zip(noise_db.unwrap_or_default()) {
         let zoom = report.zoom;
-        let _ = writeln!(out, "{zoom:>7} {noise_db:>9.2} is the truth's own noise");
+        let _ = writeln!(out, "{zoom:>7} {noise_db:>9.2} noise of the truth itself");
     }
     out
 }

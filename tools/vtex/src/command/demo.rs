@@ -1,4 +1,4 @@
-//! `vtex demo`, the work of `tools/demo`: bakes, a scene, and the page.
+//! `vtex demo`, which `tools/demo` calls: bakes drawings, traces a scene, writes the page.
 
 use std::path::Path;
 use std::time::Instant;
@@ -9,20 +9,19 @@ use vtex_truth::comparison::{Column, Comparison, Page, Sizes, Terms, WINDOWS, hu
 use vtex_truth::reference::{Edges, Reference};
 use vtex_truth::texture::{FilterMode, RasterTexture, Shooter, TODAY_TEXELS, canvas_options};
 
-use crate::args::Demo;
 use crate::baking;
-use crate::console::Console;
-use crate::failure::{ExitCode, Failure, Outcome};
-use crate::fonts::FontLibrary;
-use crate::input::{self, Input};
-use crate::output;
-use crate::tracing::{self, SceneKind, Settings};
+use crate::baking::fonts::FontLibrary;
+use crate::cli::args::Demo;
+use crate::cli::{Console, ExitCode, Failure, Outcome};
+use crate::files::input::{self, Input};
+use crate::files::output;
+use crate::texture::film::{self, SceneKind, Settings};
 
-/// Zooms that are shown.
+/// Zooms that the page shows.
 const ZOOMS: [f64; 4] = [1.0, 8.0, 32.0, 256.0];
-/// Samples a pixel of the pictures.
+/// Samples per pixel of the pictures.
 const SPP: u32 = 16;
-/// The scene's film.
+/// How the scene is traced.
 const SCENE: Settings = Settings {
     size_px: [720, 480],
     spp: 32,
@@ -31,10 +30,10 @@ const SCENE: Settings = Settings {
     kind: SceneKind::Showroom,
 };
 
-const INTRODUCTION: &str = "Each drawing at 1, 8, 32 and 256 times, looked up in three ways with \
-    16 samples a pixel: drawn anew from the SVG (257 samples a pixel, the truth), from \
-    the .vtex file, and from a raster texture of 4096 texels with mips as engines use today. PSNR \
-    is against the truth, over white; higher is better.";
+const INTRODUCTION: &str = "Each drawing at zoom 1, 8, 32 and 256, three times: drawn from the SVG \
+    at that zoom with 257 samples per pixel, which is the truth; looked up in the .vtex file; and \
+    looked up in a raster texture of 4096 texels with mips, as engines use today. Lookups take 16 \
+    samples per pixel. PSNR is measured against the truth, over white; higher is better.";
 
 /// Runs `vtex demo`.
 pub(super) fn run(args: Demo, console: Console) -> Outcome<ExitCode> {
@@ -52,8 +51,8 @@ pub(super) fn run(args: Demo, console: Console) -> Outcome<ExitCode> {
             .iter()
             .map(|drawing| drawing.file.clone())
             .collect();
-        let film = tracing::trace(files, SCENE, console)?;
-        let png = tracing::encode(&film, SCENE.kind, Path::new("scene.png"))?;
+        let film = film::trace(files, SCENE, console)?;
+        let png = film::encode(&film, SCENE.kind, Path::new("scene.png"))?;
         page.large_picture(
             png,
             "Path-traced with the textures baked from these drawings",
@@ -108,7 +107,7 @@ impl Drawing {
         })
     }
 
-    /// Writes the drawing's rows.
+    /// Adds the drawing to the page: a row for each zoom.
     fn show(
         &self,
         page: &mut Page,

@@ -7,11 +7,11 @@ use vtex_format::{CellWord, Entry, EntryKind, Image, VtexFile};
 use vtex_truth::picture::encode_png;
 use vtex_truth::srgb;
 
-use crate::args::Extract;
-use crate::console::Console;
-use crate::failure::{ExitCode, Outcome};
-use crate::heat::{cell_loads, heat_map};
-use crate::{input, output, texture};
+use crate::cli::args::Extract;
+use crate::cli::{Console, ExitCode, Outcome};
+use crate::files::{input, output};
+use crate::texture;
+use crate::texture::heat::{cell_loads, heat_map};
 
 /// Runs `vtex extract`.
 pub(super) fn run(args: &Extract, console: Console) -> Outcome<ExitCode> {
@@ -27,8 +27,8 @@ pub(super) fn run(args: &Extract, console: Console) -> Outcome<ExitCode> {
     folder.layers(&file)?;
     folder.images(&file)?;
     match console.format {
-        crate::console::Format::Json => console.json(&json!(folder.written))?,
-        crate::console::Format::Text => {
+        crate::cli::Format::Json => console.json(&json!(folder.written))?,
+        crate::cli::Format::Text => {
             let (count, name) = (folder.written.len(), args.output.display());
             console.note(&format!("{name}: {count} files"));
         }
@@ -58,8 +58,8 @@ impl Folder {
 
     fn shader(&mut self, file: &VtexFile) -> Outcome<()> {
         self.write("shader.wgsl", file.shader.wgsl_fragment.as_bytes())?;
-        // SPIR-V is a stream of words in the order of the machine that reads it; files are
-        // little-endian by custom.
+        // SPIR-V is a stream of words without a fixed byte order; files are little-endian by
+        // convention.
         let spirv: Vec<u8> = file
             .shader
             .batch_spirv
@@ -124,9 +124,9 @@ fn lattice_size(file: &VtexFile) -> [u32; 2] {
         .map(|cells| cells * file.meta.grid.texels_per_cell + 1)
 }
 
-/// Each layer's tiles put where they belong, RGBA8; transparent where the layer stores nothing
-/// (no edge near, or covered from in front). Where a cell has tiles of several paints the
-/// texel furthest inside is shown.
+/// For each layer its tiles put together, RGBA8. Transparent where the layer stores nothing,
+/// because no edge is near or another shape covers it. Where a cell has tiles of several paints,
+/// the texel furthest inside is shown.
 fn layer_lattices(file: &VtexFile) -> Vec<Vec<[u8; 4]>> {
     let [width, height] = lattice_size(file).map(|side| side as usize);
     let mut lattices = vec![vec![[0; 4]; width * height]; file.layers.len()];
@@ -152,7 +152,7 @@ fn layer_lattices(file: &VtexFile) -> Vec<Vec<[u8; 4]>> {
     lattices
 }
 
-/// Every cell with every tile that its list names.
+/// All pairs of a cell and a tile that its list names.
 fn placed_tiles(file: &VtexFile) -> Vec<(usize, u32)> {
     let (pairs, _) = file.entries.as_chunks::<2>();
     let mut placed = Vec::new();
@@ -186,13 +186,13 @@ fn median([r, g, b, _]: [u8; 4]) -> u8 {
     r.min(g).max(r.max(g).min(b))
 }
 
-/// White inside, black outside, transparent where nothing is stored.
+/// White inside, black outside, transparent where no texel is stored.
 fn thresholded(texel: [u8; 4]) -> [u8; 4] {
     let value = if median(texel) >= 128 { 255 } else { 0 };
     [value, value, value, texel[3]]
 }
 
-/// Premultiplied linear light, encoded, as straight sRGB.
+/// Texels of an image (premultiplied in linear light, then sRGB-encoded) as straight-alpha sRGB.
 fn straight(texels: &[u8]) -> Vec<u8> {
     let convert = |&[r, g, b, a]: &[u8; 4]| {
         if a == 0 {

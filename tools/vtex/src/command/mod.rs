@@ -10,15 +10,48 @@ mod render;
 mod validate;
 mod worker;
 
-use crate::args::{Cli, Command};
-use crate::console::{Console, Verbosity};
-use crate::failure::{ExitCode, Failure, Outcome};
+use std::panic::{self, AssertUnwindSafe};
+use std::process;
 
-/// Stack of each thread: drawings nest groups deeper than two megabytes take.
-pub(crate) const STACK_BYTES: usize = 64 << 20;
+use clap::Parser;
+use clap::error::ErrorKind;
 
-/// Runs the command line and says with what the process is to exit. Failures are told on stderr.
-pub fn run(cli: Cli) -> ExitCode {
+use crate::cli::args::{Cli, Command};
+use crate::cli::{Console, ExitCode, Failure, Outcome, Verbosity, keep_places, panicked};
+
+/// Stack of each thread. Parsing and baking recurse into groups, and a drawing may nest them a
+/// thousand deep: that takes more than the 2 MiB that a thread has by default. The system backs
+/// only the part of a stack that was touched, so unused stack costs addresses and no memory.
+const STACK_BYTES: usize = 64 << 20;
+
+/// Runs the command line of this process and returns what the process is to exit with. Failures
+/// are printed on standard error.
+pub fn run() -> process::ExitCode {
+    let code = match Cli::try_parse() {
+        Ok(cli) => caught(cli),
+        Err(error) => {
+            // A closed pipe is the only way this fails, and then nobody reads the text.
+            let _ = error.print();
+            match error.kind() {
+                ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => ExitCode::Ok,
+                _ => ExitCode::Usage,
+            }
+        }
+    };
+    process::ExitCode::from(code as u8)
+}
+
+/// As [`execute`], where a panic is a failure like others.
+fn caught(cli: Cli) -> ExitCode {
+    keep_places();
+    panic::catch_unwind(AssertUnwindSafe(|| execute(cli))).unwrap_or_else(|panic| {
+        let failure = panicked("internal error", &*panic);
+        Console::default().failure(&failure);
+        failure.code
+    })
+}
+
+fn execute(cli: Cli) -> ExitCode {
     let console = Console {
         verbosity: match (cli.global.quiet, cli.global.verbose) {
             (true, _) => Verbosity::Quiet,

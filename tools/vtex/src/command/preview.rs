@@ -4,10 +4,10 @@ use vtex_format::VtexFile;
 use vtex_truth::picture::{Shot, View, fit_size};
 use vtex_truth::texture::pack_options;
 
-use crate::args::{Preview, Size};
-use crate::console::Console;
-use crate::failure::{ExitCode, Outcome};
-use crate::{input, output, texture};
+use crate::cli::args::Preview;
+use crate::cli::{Console, ExitCode, Outcome, Size};
+use crate::files::{input, output};
+use crate::texture;
 
 /// Runs `vtex preview`.
 pub(super) fn run(args: &Preview, console: Console) -> Outcome<ExitCode> {

@@ -6,19 +6,21 @@ use vtex_baker::BakeConfig;
 use vtex_format::VtexFile;
 use vtex_truth::picture::View;
 
-use crate::args::{Render, Size};
-use crate::console::Console;
-use crate::failure::{ExitCode, Failure, Outcome};
-use crate::fonts::FontLibrary;
-use crate::tracing::{self, SceneKind, Settings};
-use crate::{baking, input, output, texture};
+use crate::baking::fonts::FontLibrary;
+use crate::cli::args::Render;
+use crate::cli::{Console, ExitCode, Failure, Outcome, Size};
+use crate::files::{extension, input, output};
+use crate::texture::film::{self, SceneKind, Settings};
+use crate::{baking, texture};
 
 /// Runs `vtex render`.
 pub(super) fn run(args: Render, console: Console) -> Outcome<ExitCode> {
-    // Before minutes of tracing, not after them.
-    if !["png", "exr"].contains(&tracing::extension(&args.output).as_str()) {
+    // Checked before tracing, which takes minutes.
+    if !["png", "exr"].contains(&extension(&args.output).as_str()) {
         let name = args.output.display();
-        return Err(Failure::usage(format!("{name}: neither .png nor .exr")));
+        return Err(Failure::usage(format!(
+            "{name}: the output must be a .png or .exr file"
+        )));
     }
     let fonts = FontLibrary::new(args.fonts.clone())?;
     let files = args
@@ -33,7 +35,7 @@ pub(super) fn run(args: Render, console: Console) -> Outcome<ExitCode> {
     let size_px = match (args.size, kind, files.first()) {
         (size, SceneKind::Plane, Some(file)) => super::preview::size_px(size, View::WHOLE, file),
         (Size::Exact(size), ..) => size,
-        // The showroom is framed for 3:2.
+        // The camera of the showroom is framed for 3:2.
         (Size::Longer(longer), ..) => [longer, (longer * 2 / 3).max(1)],
     };
     let Render {
@@ -46,8 +48,8 @@ pub(super) fn run(args: Render, console: Console) -> Outcome<ExitCode> {
         seed,
         kind,
     };
-    let film = tracing::trace(files, settings, console)?;
-    output::write(&args.output, &tracing::encode(&film, kind, &args.output)?)?;
+    let film = film::trace(files, settings, console)?;
+    output::write(&args.output, &film::encode(&film, kind, &args.output)?)?;
     let [width, height] = size_px;
     console.note(&format!(
         "{}: {width} x {height}, {spp} spp",
@@ -56,10 +58,10 @@ pub(super) fn run(args: Render, console: Console) -> Outcome<ExitCode> {
     Ok(ExitCode::Ok)
 }
 
-/// Reads a .vtex file, or bakes what is taken for an SVG.
+/// Reads a `.vtex` file; bakes any other file as SVG.
 fn load(path: &Path, fonts: &FontLibrary) -> Outcome<VtexFile> {
     let bytes = input::read(path)?;
-    if tracing::extension(path) == "vtex" {
+    if extension(path) == "vtex" {
         texture::parse(path, &bytes)
     } else {
         baking::bake(path, &bytes, &BakeConfig::default(), fonts, &|_| ())

@@ -3,10 +3,9 @@
 use serde_json::{Value, json};
 use vtex_format::{Fault, Issue, Limits, validate};
 
-use crate::args::Validate;
-use crate::console::{Console, Format};
-use crate::failure::{ExitCode, Failure, Outcome};
-use crate::input;
+use crate::cli::args::Validate;
+use crate::cli::{Console, ExitCode, Failure, Format, Outcome};
+use crate::files::input;
 
 /// Runs `vtex validate`.
 pub(super) fn run(args: &Validate, console: Console) -> Outcome<ExitCode> {
@@ -30,7 +29,8 @@ pub(super) fn run(args: &Validate, console: Console) -> Outcome<ExitCode> {
                 }
                 if !issues.is_empty() {
                     let count = issues.len();
-                    let message = format!("{name}: {count} issues; bake or fetch it again");
+                    let message =
+                        format!("{name}: {count} issues found; bake or download the file again");
                     console.failure(&Failure::new(code(&issues), message));
                 }
                 reports.push(json!({"file": path, "issues": issues_json(&issues)}));

@@ -8,14 +8,14 @@ use std::time::Instant;
 use clap::Parser;
 use vtex_baker::{BakeConfig, Resources, Stage};
 
-use crate::args::{self, Bake, Cli, Command};
-use crate::failure::{ExitCode, Failure, Outcome};
-use crate::fonts::FontLibrary;
-use crate::images::ImageFolders;
-use crate::wire::{self, Reply, Request, Summary};
-use crate::{baking, memory};
+use crate::baking::fonts::FontLibrary;
+use crate::baking::images::ImageFolders;
+use crate::baking::wire::{self, Reply, Request, Summary};
+use crate::baking::{self, memory};
+use crate::cli::args::{self, Bake, Cli, Command};
+use crate::cli::{ExitCode, Failure, Outcome};
 
-/// Runs `vtex worker`: bakes what is asked for until nobody asks any more.
+/// Runs `vtex worker`: bakes one drawing after another until standard input ends.
 pub(super) fn run(args: &args::Worker) -> Outcome<ExitCode> {
     let name = std::ffi::OsString::from("vtex");
     let words = std::iter::once(&name).chain(&args.command_line);
@@ -26,7 +26,7 @@ pub(super) fn run(args: &args::Worker) -> Outcome<ExitCode> {
     limit_memory(&bake)?;
     let baker = Baker::new(&bake, cli.global.verbose)?;
     for (request, svg) in requests() {
-        // Whoever asked is gone when this fails.
+        // Writing fails only when the parent process is gone.
         if baker.answer(&request, &svg).is_err() {
             break;
         }
@@ -34,14 +34,15 @@ pub(super) fn run(args: &args::Worker) -> Outcome<ExitCode> {
     Ok(ExitCode::Ok)
 }
 
-/// The stacks of the threads are reserved, not used: they come on top.
+/// Limits the memory of this process. The limit counts the address space of all stacks, although
+/// most of it is never touched, so the stacks come on top of `--max-memory`.
 fn limit_memory(bake: &Bake) -> Outcome<()> {
     let stacks = rayon::current_num_threads() * super::STACK_BYTES;
     memory::limit((u64::from(bake.budget.max_memory) << 20) + stacks as u64)
 }
 
-/// Requests as they come. The process ends with its input, even in the middle of a bake: then
-/// nobody is left to limit its time.
+/// Requests as they arrive. When standard input ends, the process exits at once, even in the middle
+/// of a bake: the parent is gone, and nobody else would enforce the time limit.
 fn requests() -> Receiver<(Request, Vec<u8>)> {
     let (sender, receiver) = mpsc::sync_channel(1);
     std::thread::spawn(move || {
@@ -79,14 +80,14 @@ struct Baker {
 impl Baker {
     fn new(bake: &Bake, verbose: bool) -> Outcome<Self> {
         Ok(Self {
-            config: baking::config(&bake.options)?,
+            config: baking::config(&bake.options),
             fonts: FontLibrary::new(bake.options.fonts.clone())?,
             images: ImageFolders::new(&bake.options.allow_images)?,
             verbose,
         })
     }
 
-    /// Bakes and sends what came of it.
+    /// Bakes one drawing and sends the result.
     fn answer(&self, request: &Request, svg: &[u8]) -> io::Result<()> {
         let mut to = io::stdout();
         match self.bake(Path::new(&request.path), svg) {
@@ -108,7 +109,8 @@ impl Baker {
             if self.verbose {
                 let at = begun.elapsed().as_secs_f64();
                 let text = format!("{}: {at:7.3} s {stage:?}", path.display());
-                // Whoever asked is gone when this fails, and the end of the bake tells us so.
+                // This fails only when the parent is gone; then the thread that reads standard
+                // input ends the process.
                 let _ = wire::send(&mut io::stdout(), &Reply::Detail(text), &[]);
             }
         };

@@ -16,6 +16,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use anyhow::{Context, Result, ensure};
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::drawings;
 use crate::workspace::Workspace;
 use measure::Bench;
 use options::Options;
@@ -24,19 +25,14 @@ use totals::{FeatureTotals, Totals, Verdict};
 
 pub(crate) use options::USAGE;
 
-/// Folder that is left out: its files are made to break readers.
-const HOSTILE: &str = "hostile";
-
 /// The table for programs.
 const CSV: &str = "corpus.csv";
 
 /// Measures as asked for and writes both tables. False when a file failed or too many missed a bar.
 pub(crate) fn run(ws: &Workspace, arguments: &[String]) -> Result<bool> {
     let options = Options::parse(arguments).map_err(|error| error.context(USAGE))?;
-    let mut files = Vec::new();
-    find(&options.folder, "", &mut files)?;
+    let mut files = drawings::below(&options.folder)?;
     files.retain(|file| file.contains(&options.filter));
-    files.sort();
     ensure!(
         !files.is_empty(),
         "no SVG to measure in {}",
@@ -177,34 +173,6 @@ fn verdict_text(verdict: &Verdict, options: &Options) -> String {
         "{holds}: {reached} of {files} files {kind} patches ({share:.1}%, {wanted}% wanted) reach \
          {db} dB or the truth's noise at {zoom}x"
     )
-}
-
-/// Paths below `root` of all SVG files in `folder`.
-fn find(root: &Path, folder: &str, files: &mut Vec<String>) -> Result<()> {
-    let path = root.join(folder);
-    let entries = std::fs::read_dir(&path).with_context(|| path.display().to_string())?;
-    for entry in entries {
-        let entry = entry?;
-        let name = entry.file_name().to_string_lossy().into_owned();
-        let below = if folder.is_empty() {
-            name.clone()
-        } else {
-            format!("{folder}/{name}")
-        };
-        let is_svg = name.rsplit_once('.').is_some_and(|(_, end)| {
-            ["svg", "svgz"]
-                .iter()
-                .any(|known| end.eq_ignore_ascii_case(known))
-        });
-        if entry.path().is_dir() {
-            if name != HOSTILE {
-                find(root, &below, files)?;
-            }
-        } else if is_svg {
-            files.push(below);
-        }
-    }
-    Ok(())
 }
 
 /// Builds the release binary and says where it is.

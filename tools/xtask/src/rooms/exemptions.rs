@@ -33,12 +33,6 @@ pub(super) const EXEMPTIONS: &[Exemption] = &[
     circle("shaders/src", "#10", EVALUATOR),
     size("shaders/src/cpu", "#10", EVALUATOR),
     size("shaders/wgsl/vtex", "#10", EVALUATOR),
-    size("tools/bench/src", "#9", "the bench gets rooms"),
-    size(
-        "tools/vtex/src",
-        "#9",
-        "the truth renderer gets a crate of its own",
-    ),
 ];
 
 const EVALUATOR: &str = "the evaluator is merged by concept";

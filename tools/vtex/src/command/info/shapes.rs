@@ -1,4 +1,4 @@
-//! What `vtex info` says of shapes.
+//! The part of `vtex info` about shapes.
 
 use std::fmt::Write as _;
 
@@ -68,7 +68,7 @@ fn finding_name(finding: Finding) -> &'static str {
     }
 }
 
-/// What a report says beyond the ordinary.
+/// What is unusual about a shape; empty when nothing is.
 fn report_text(report: &ShapeReport) -> String {
     let mut parts = Vec::new();
     if report.preparation != Preparation::AsDrawn {
@@ -82,7 +82,7 @@ fn report_text(report: &ShapeReport) -> String {
     }
     if let Some(error) = report.field_error {
         let (p99, wrong) = (error.p99_px, 100.0 * error.wrong_share);
-        parts.push(format!("off {p99:.3} px, {wrong:.2}% wrong"));
+        parts.push(format!("error p99 {p99:.3} px, {wrong:.2}% wrong"));
     }
     match parts.is_empty() {
         true => String::new(),
@@ -90,7 +90,7 @@ fn report_text(report: &ShapeReport) -> String {
     }
 }
 
-/// How many shapes there are of each kind of coverage.
+/// The number of shapes by kind of coverage.
 fn coverage_counts(file: &VtexFile) -> String {
     let counts = [COVERAGE_MSDF, COVERAGE_CURVES, COVERAGE_IMAGE].map(|coverage| {
         let shapes = file.shapes.iter();
@@ -138,7 +138,7 @@ pub(super) fn shapes(out: &mut String, file: &VtexFile, shown: usize) -> std::fm
         )?;
     }
     if count > shown {
-        writeln!(out, "      ... {} more (-v)", count - shown)?;
+        writeln!(out, "      ... {} more; -v prints them all", count - shown)?;
     }
     Ok(())
 }

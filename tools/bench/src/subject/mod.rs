@@ -1,0 +1,162 @@
+//! One SVG file to measure with: baked, and as the raster texture that it replaces.
+
+mod raster;
+mod rasterise;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use anyhow::{Context as _, Result};
+use vtex_baker::{BakeConfig, Resources};
+use vtex_format::{Image, VtexFile};
+use vtex_shaders::cpu::Sampler;
+use vtex_shaders::{FilterMode, PackOptions, pack};
+use vtex_testing::corpus;
+
+use crate::timing::{QuerySet, Screen};
+
+pub(crate) use raster::{CpuRaster, RASTER_SIZE, halves_kernel, hardware_kernel, synthetic};
+pub(crate) use rasterise::{parse, rasterise, render};
+
+/// Points along each side of a window at which its cost is probed.
+const PROBES: u16 = 24;
+
+/// The filter modes with the names that columns use.
+pub(crate) const FILTERS: [(&str, FilterMode); 3] = [
+    ("point", FilterMode::Point),
+    ("footprint", FilterMode::Footprint),
+    ("paper", FilterMode::Paper),
+];
+
+/// One SVG with its bake and its raster texture.
+#[derive(Debug)]
+pub(crate) struct Subject {
+    /// File name without its ending.
+    pub(crate) name: String,
+    /// Baked with the defaults.
+    pub(crate) file: VtexFile,
+    /// The same drawing with mips at [`RASTER_SIZE`].
+    pub(crate) raster: Image,
+    screen: Screen,
+    busy_corner: [f32; 2],
+}
+
+impl Subject {
+    /// Reads, bakes and rasterises a file.
+    pub(crate) fn bake(path: &Path, resources: &Resources) -> Result<Self> {
+        let name = name(path);
+        let svg = read(path)?;
+        let fail = || format!("cannot bake {name}");
+        let config = BakeConfig::default();
+        let file =
+            vtex_baker::bake_observed(&svg, &config, resources, &|_| ()).with_context(fail)?;
+        let raster = rasterise(&svg, resources, RASTER_SIZE).with_context(fail)?;
+        let screen = Screen::new(file.meta.canvas_size);
+        let busy_corner = busiest(&file, screen);
+        Ok(Self {
+            name,
+            file,
+            raster,
+            screen,
+            busy_corner,
+        })
+    }
+
+    /// The query sets of the lookup tables: 8x all over the canvas, 8x where lookups cost most, the
+    /// whole canvas at 1x, and 8x at random points.
+    pub(crate) fn query_sets(&self, lookups: usize) -> [QuerySet; 4] {
+        [
+            self.screen.tour(lookups),
+            self.screen.close(self.busy_corner, lookups),
+            self.screen.whole(lookups),
+            self.screen.scattered(lookups),
+        ]
+    }
+
+    /// Packed words.
+    pub(crate) fn words(&self, filter: FilterMode) -> Vec<u32> {
+        pack(
+            &self.file,
+            &PackOptions {
+                filter,
+                ..PackOptions::default()
+            },
+        )
+    }
+}
+
+/// The system's fonts, for drawings with text.
+pub(crate) fn system_fonts() -> Resources {
+    let mut fonts = resvg::usvg::fontdb::Database::new();
+    fonts.load_system_fonts();
+    Resources {
+        fonts: Arc::new(fonts),
+        ..Resources::default()
+    }
+}
+
+/// File name without its ending.
+pub(crate) fn name(path: &Path) -> String {
+    path.file_stem()
+        .unwrap_or(path.as_os_str())
+        .to_string_lossy()
+        .into_owned()
+}
+
+/// Reads a file and says which when it cannot.
+pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
+    fs::read(path).with_context(|| format!("cannot read {}", path.display()))
+}
+
+/// `named`, or the default samples; never none.
+#[expect(clippy::print_stderr, reason = "a tool talks to its user")]
+pub(crate) fn find(named: &[PathBuf]) -> Result<Vec<PathBuf>> {
+    if !named.is_empty() {
+        return Ok(named.to_owned());
+    }
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut files = svg_files(&root.join("tests/data/svg/paper"));
+    match corpus::folder().map_err(anyhow::Error::msg)? {
+        Some(corpus) => files.extend(svg_files(&corpus.join("paper5"))),
+        None => eprintln!("no corpus: only the project's own samples are measured"),
+    }
+    anyhow::ensure!(!files.is_empty(), "no samples found; name SVG files");
+    Ok(files)
+}
+
+/// SVG files of a folder by name; none when it cannot be listed.
+fn svg_files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let paths = entries.map(|entry| entry.path());
+    let mut paths: Vec<PathBuf> = paths
+        .filter(|path| path.extension().is_some_and(|ending| ending == "svg"))
+        .collect();
+    paths.sort();
+    paths
+}
+
+/// Corner of the 8x window whose lookups visit the most entries and segments; the first of equals.
+fn busiest(file: &VtexFile, screen: Screen) -> [f32; 2] {
+    let words = pack(file, &PackOptions::default());
+    let sampler = Sampler::new(&words);
+    let cost = |corner: &[f32; 2]| {
+        let set = screen.close(*corner, 1);
+        let [width, height] = set.extent_uv();
+        let probe = |i: u16| {
+            let at = |k: u16| (f32::from(k) + 0.5) / f32::from(PROBES);
+            [
+                corner[0] + at(i % PROBES) * width,
+                corner[1] + at(i / PROBES) * height,
+            ]
+        };
+        let walked = |uv| {
+            let cost = sampler.cost(uv, [0.0; 4]);
+            cost.entries + cost.segments
+        };
+        (0..PROBES * PROBES).map(probe).map(walked).sum::<u32>()
+    };
+    let corners: Vec<[f32; 2]> = screen.close_corners().collect();
+    let best = corners.iter().rev().max_by_key(|corner| cost(corner));
+    best.copied().unwrap_or_default()
+}

@@ -1,0 +1,206 @@
+//! Lookups per second of vector textures, and of the raster textures they replace.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use anyhow::Result;
+use vtex_shaders::cpu::{LookupCost, Sampler};
+use vtex_shaders::layout::BatchQuery;
+use vtex_shaders::{BindingSlot, FilterMode, PackOptions, fragment, spec_key_with};
+
+use crate::report::{Cell, Table};
+use crate::subject::{CpuRaster, FILTERS, RASTER_SIZE, Subject, hardware_kernel};
+use crate::timing::{Device, Effort, Kernel, QuerySet, Timing, Trial, interleave};
+
+/// One table for each query set. Rows are files, and the raster is the baseline.
+pub(crate) fn gpu_tables(
+    device: &Device,
+    subjects: &[Subject],
+    effort: Effort,
+) -> Result<Vec<Table>> {
+    let mut rows = Vec::new();
+    for subject in subjects {
+        let mut kernels = vec![hardware_kernel(device, &subject.raster)];
+        kernels.extend(FILTERS.map(|(_, filter)| vtex_kernel(device, subject, filter)));
+        for set in subject.query_sets(effort.gpu_lookups) {
+            let batch = device.batch(&set);
+            let trials = kernels
+                .iter()
+                .map(|kernel| Trial::timed(set.len(), || device.time(kernel, &batch)));
+            rows.push((subject, set, interleave(trials.collect(), effort.rounds)?));
+        }
+    }
+    let baseline = "sRGB8 with mips through the trilinear sampler";
+    Ok(tables("Lookups on the GPU", baseline, &rows))
+}
+
+/// As [`gpu_tables`] for the twin on `threads` threads.
+pub(crate) fn cpu_tables(
+    subjects: &[Subject],
+    threads: usize,
+    effort: Effort,
+) -> Result<Vec<Table>> {
+    let mut rows = Vec::new();
+    for subject in subjects {
+        let raster = CpuRaster::new(&subject.raster);
+        let words = FILTERS.map(|(_, filter)| subject.words(filter));
+        let samplers = words.each_ref().map(|words| Sampler::new(words));
+        for set in subject.query_sets(effort.cpu_lookups) {
+            let queries = set.queries();
+            let baseline = || spread(&queries, threads, |query| raster.sample(query));
+            let mut trials = vec![Trial::timed(set.len(), || Ok(baseline()))];
+            for sampler in &samplers {
+                let sample = |query: &BatchQuery| sampler.sample(query.uv, query.footprint);
+                let queries = &queries;
+                trials.push(Trial::timed(set.len(), move || {
+                    Ok(spread(queries, threads, sample))
+                }));
+            }
+            rows.push((subject, set, interleave(trials, effort.rounds)?));
+        }
+    }
+    let title = match threads {
+        1 => "Lookups by the CPU twin, one core".to_owned(),
+        _ => format!("Lookups by the CPU twin, {threads} cores"),
+    };
+    let baseline = "sRGB8 with mips, trilinear in Rust";
+    Ok(tables(&title, baseline, &rows))
+}
+
+/// What lookups of the twin and of the GPU read, and what the texture takes.
+pub(crate) fn count_table(subjects: &[Subject], effort: Effort) -> Table {
+    let columns = [
+        "8x, random points of the canvas",
+        "layers",
+        "packed KiB",
+        "raster KiB",
+        "entries, point",
+        "segments, point",
+        "tiles, point",
+        "bytes, point",
+        "entries, footprint",
+        "segments, footprint",
+        "bytes, footprint",
+    ];
+    let mut table = Table::new("What a lookup reads", &columns);
+    table.note(
+        "Means over the lookups, counted along the twin's walk. The raster reads 16 to 32 bytes.",
+    );
+    for subject in subjects {
+        let [.., set] = subject.query_sets(effort.cpu_lookups);
+        let lookups = set.len() as f64;
+        let sum = |filter| {
+            let words = subject.words(filter);
+            let sampler = Sampler::new(&words);
+            let of = |query: BatchQuery| sampler.cost(query.uv, query.footprint);
+            let costs = set.queries().into_iter().map(of);
+            costs.fold(LookupCost::default(), std::ops::Add::add)
+        };
+        let [point, footprint] = [sum(FilterMode::Point), sum(FilterMode::Footprint)];
+        let mean = |total: u32, digits| Cell::Number(f64::from(total) / lookups, digits);
+        let kib = |bytes: usize| Cell::Number(bytes as f64 / 1024.0, 0);
+        table.row(vec![
+            Cell::Text(subject.name.clone()),
+            Cell::Number(subject.file.layers.len() as f64, 0),
+            kib(4 * subject.words(FilterMode::Point).len()),
+            kib(subject.raster.mips.iter().map(Vec::len).sum()),
+            mean(point.entries, 2),
+            mean(point.segments, 2),
+            mean(point.tiles, 2),
+            mean(point.bytes, 1),
+            mean(footprint.entries, 2),
+            mean(footprint.segments, 2),
+            mean(footprint.bytes, 1),
+        ]);
+    }
+    table
+}
+
+fn vtex_kernel(device: &Device, subject: &Subject, filter: FilterMode) -> Kernel {
+    let words = subject.words(filter);
+    let words = device.buffer(bytemuck::cast_slice(&words), wgpu::BufferUsages::STORAGE);
+    let options = PackOptions {
+        filter,
+        ..PackOptions::default()
+    };
+    let evaluator = fragment(
+        &spec_key_with(&subject.file, &options),
+        BindingSlot {
+            group: 0,
+            binding: 0,
+        },
+    );
+    let bridge = include_str!("../wgsl/vtex.wgsl");
+    device.kernel(&[&evaluator, bridge].concat(), &[words.as_entire_binding()])
+}
+
+/// Answers all queries on `threads` threads and returns how long that took.
+fn spread(
+    queries: &[BatchQuery],
+    threads: usize,
+    sample: impl Fn(&BatchQuery) -> [f32; 4] + Sync,
+) -> Duration {
+    let work = |queries: &[BatchQuery]| {
+        for query in queries {
+            black_box(sample(black_box(query)));
+        }
+    };
+    let start = Instant::now();
+    if threads == 1 {
+        work(queries);
+    } else {
+        std::thread::scope(|scope| {
+            for part in queries.chunks(queries.len().div_ceil(threads).max(1)) {
+                scope.spawn(|| work(part));
+            }
+        });
+    }
+    start.elapsed()
+}
+
+/// Timings of raster, point, footprint and paper for a file and query set.
+type Row<'a> = (&'a Subject, QuerySet, Vec<Timing>);
+
+fn tables(title: &str, baseline: &str, rows: &[Row<'_>]) -> Vec<Table> {
+    let mut tables: Vec<(&str, Table)> = Vec::new();
+    for (subject, set, timings) in rows {
+        let place = tables
+            .iter()
+            .position(|(name, _)| *name == set.name)
+            .unwrap_or_else(|| {
+                let raster = format!("raster {RASTER_SIZE}^2");
+                let columns: Vec<&str> = ["million lookups/s", &raster]
+                    .into_iter()
+                    .chain(FILTERS.iter().map(|(name, _)| *name))
+                    .collect();
+                let mut table = Table::new(format!("{title}, {}", set.name), &columns);
+                table.note(format!("{}; raster: {baseline}.", meaning(set.name)));
+                tables.push((set.name, table));
+                tables.len() - 1
+            });
+        let mut cells = vec![Cell::Text(subject.name.clone())];
+        cells.extend(
+            timings
+                .iter()
+                .enumerate()
+                .map(|(index, timing)| Cell::Measured {
+                    value: timing.millions_a_second(),
+                    ratio: (index > 0).then(|| timing.speed_against(&timings[0])),
+                }),
+        );
+        tables[place].1.row(cells);
+    }
+    tables.into_iter().map(|(_, table)| table).collect()
+}
+
+/// What a query set of [`Subject::query_sets`] is.
+fn meaning(name: &str) -> &'static str {
+    match name {
+        "8x, all" => {
+            "Blocks of 64 x 64 pixels at 8x from everywhere on the canvas, in screen order"
+        }
+        "8x" => "The 512 x 512 pixels of the canvas' busiest part at 8x, in screen order",
+        "1x" => "The whole canvas in 512 pixels, in screen order (answered by mips)",
+        _ => "Random points of the canvas with the footprint of a pixel at 8x",
+    }
+}

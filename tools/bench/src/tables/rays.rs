@@ -1,0 +1,157 @@
+//! Rays per second of the path tracer, with and without textures.
+
+use std::time::{Duration, Instant};
+
+use anyhow::{Context as _, Result, ensure};
+use vtex_baker::Resources;
+use vtex_format::{CellWord, Entry, EntryKind, Grid, Image, SpecKey, VtexFile};
+use vtex_runtime::{LoadOptions, Scene, TraceOptions, Tracer, scene};
+use vtex_scenes::showroom;
+
+use crate::report::{Cell, Table};
+use crate::subject::{Subject, rasterise, read};
+use crate::timing::{Device, Effort, Trial, interleave};
+
+/// Size of the film: small, since a software driver traces about a million rays per second.
+const FILM: [u32; 2] = [240, 160];
+/// Samples per pixel in a run.
+const SAMPLES: u32 = 4;
+/// Longer side of the raster textures. Four of them at 2048, as half floats with their mips, exceed
+/// a binding of core WebGPU.
+const RASTER_SIZE: u32 = 1024;
+/// Objects of the showroom that take a texture.
+const SHOWROOM: usize = 4;
+
+/// The showroom with the first files, then each file on a plane.
+pub(crate) fn rays_table(
+    device: &Device,
+    subjects: &[(std::path::PathBuf, Subject)],
+    resources: &Resources,
+    effort: Effort,
+) -> Result<Table> {
+    let raster = format!("raster {RASTER_SIZE}^2");
+    let columns = ["GPU, million rays/s", &raster, "vector", "no texture"];
+    let mut table = Table::new("Rays of the path tracer", &columns);
+    table.note(format!(
+        "{} x {} pixels, {SAMPLES} samples each, up to {} bounces, ray-cone footprints. The raster \
+         is half floats with mips in a storage buffer, filtered by the same evaluator: the tracer \
+         takes no other texture.",
+        FILM[0],
+        FILM[1],
+        TraceOptions::default().max_bounces,
+    ));
+    let mut rasters = Vec::new();
+    for (path, subject) in subjects {
+        let image = rasterise(&read(path)?, resources, RASTER_SIZE);
+        let file = raster_file(&subject.file, image.with_context(|| subject.name.clone())?);
+        let issues = file.check();
+        ensure!(issues.is_empty(), "{}: {issues:?}", subject.name);
+        rasters.push(file);
+    }
+    let vectors: Vec<VtexFile> = subjects
+        .iter()
+        .map(|(_, subject)| subject.file.clone())
+        .collect();
+    let few = |files: &[VtexFile]| files.iter().take(SHOWROOM).cloned().collect();
+    let rooms = [
+        showroom(few(&rasters)),
+        showroom(few(&vectors)),
+        showroom(Vec::new()),
+    ];
+    table.row(row(device, "showroom", &rooms, effort)?);
+    for ((raster, vector), (_, subject)) in rasters.into_iter().zip(vectors).zip(subjects) {
+        let mut bare = scene::plane(vector.clone(), LoadOptions::default());
+        bare.textures.clear();
+        bare.materials
+            .iter_mut()
+            .for_each(|material| material.texture = None);
+        let planes = [
+            scene::plane(raster, LoadOptions::default()),
+            scene::plane(vector, LoadOptions::default()),
+            bare,
+        ];
+        table.row(row(
+            device,
+            &format!("plane, {}", subject.name),
+            &planes,
+            effort,
+        )?);
+    }
+    Ok(table)
+}
+
+/// A texture of one cell whose only entry is `image`.
+fn raster_file(like: &VtexFile, image: Image) -> VtexFile {
+    let entry = Entry {
+        kind: EntryKind::Image,
+        last: true,
+        opaque: false,
+        index: 0,
+        data: 0,
+    };
+    let cell = CellWord::List { offset_words: 0 };
+    let mut file = VtexFile {
+        cells: cell.encode().into_iter().collect(),
+        entries: entry.encode().into_iter().flatten().collect(),
+        images: vec![image],
+        shapes: Vec::new(),
+        layers: Vec::new(),
+        tiles: Vec::new(),
+        curves: Vec::new(),
+        sources: None,
+        provenance: None,
+        ..like.clone()
+    };
+    // Cells are square in user units.
+    let [width, height] = like.meta.canvas_size;
+    file.meta.grid = Grid {
+        size_cells: [1, 1],
+        cell_from_uv_scale: [width, height].map(|side| side / width.max(height)),
+        cell_from_uv_offset: [0.0, 0.0],
+        ..like.meta.grid
+    };
+    file.meta.curve_lattice = None;
+    file.spec.features = 0;
+    file.spec = SpecKey::for_file(&file);
+    file
+}
+
+fn row(device: &Device, name: &str, scenes: &[Scene], effort: Effort) -> Result<Vec<Cell>> {
+    let mut tracers = Vec::new();
+    for scene in scenes {
+        let options = TraceOptions::for_samples(SAMPLES);
+        let mut tracer = Tracer::new(&device.device, &device.queue, scene, FILM, &options)?;
+        tracer.accumulate(SAMPLES)?;
+        let rays = tracer.stats()?.rays;
+        tracers.push((tracer, usize::try_from(rays)?));
+    }
+    let trials = tracers
+        .iter_mut()
+        .map(|(tracer, rays)| Trial::timed(*rays, || trace(tracer)))
+        .collect();
+    let timings = interleave(trials, effort.rounds)?;
+    let mut cells = vec![Cell::Text(name.to_owned())];
+    cells.extend(
+        timings
+            .iter()
+            .enumerate()
+            .map(|(index, timing)| Cell::Measured {
+                value: timing.millions_a_second(),
+                ratio: (index > 0).then(|| timing.speed_against(&timings[0])),
+            }),
+    );
+    Ok(cells)
+}
+
+/// The same paths every time, so the same number of rays.
+fn trace(tracer: &mut Tracer) -> Result<Duration> {
+    tracer.reset();
+    let before = tracer.stats()?.device_ns;
+    let start = Instant::now();
+    tracer.accumulate(SAMPLES)?;
+    let wall = start.elapsed();
+    let after = tracer.stats()?.device_ns;
+    Ok(before
+        .zip(after)
+        .map_or(wall, |(before, after)| Duration::from_nanos(after - before)))
+}

@@ -1,0 +1,440 @@
+//! The command line, as clap sees it.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use vtex_baker::BakeConfig;
+use vtex_truth::comparison::WINDOWS;
+use vtex_truth::picture::View;
+use vtex_truth::texture::FilterMode;
+
+use super::Format;
+use super::values::{Color, Matrix, Size, color, matrix, size, view};
+
+/// Bake SVG drawings into vector textures (.vtex), and inspect, check, compare and render them.
+#[derive(Debug, Parser)]
+#[command(name = "vtex", version, about, max_term_width = 100, after_help = EXIT_CODES)]
+pub(crate) struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub(crate) command: Command,
+    /// Settings of all commands.
+    #[command(flatten)]
+    pub(crate) global: Global,
+}
+
+const EXIT_CODES: &str = "Exit codes: 0 success, 1 wrong command line, 2 a file cannot be read or \
+    written, 3 invalid input file, 4 failure at run time, 5 unsupported, 7 difference found, 8 limit \
+    exceeded";
+
+/// Settings of all commands.
+#[derive(Clone, Copy, Debug, Args)]
+pub(crate) struct Global {
+    /// Format of the results on standard output
+    #[arg(
+        long,
+        global = true,
+        value_enum,
+        default_value_t,
+        value_name = "FORMAT"
+    )]
+    pub(crate) format: Format,
+    /// Print only failures
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    pub(crate) quiet: bool,
+    /// Also print details of the work, and all warnings
+    #[arg(short, long, global = true)]
+    pub(crate) verbose: bool,
+    /// Number of threads; 0 uses one per core
+    #[arg(long, global = true, default_value_t = 0, value_name = "N")]
+    pub(crate) threads: usize,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Bake SVG files into .vtex files
+    #[command(after_help = PROCESSES)]
+    Bake(Box<Bake>),
+    /// Print what a .vtex file contains
+    Info(Info),
+    /// Check .vtex files and print numbered issues
+    Validate(Validate),
+    /// Write a picture of a .vtex file as PNG
+    Preview(Preview),
+    /// Measure how far a .vtex file is from its SVG at several zooms
+    #[command(after_help = METRICS)]
+    Compare(Compare),
+    /// Write the parts of a .vtex file as files: layers, mips, heat maps of the cells, shader
+    Extract(Extract),
+    /// Path-trace textures: one on a plane, several on objects in a showroom
+    Render(Render),
+    /// Bake SVG files and write a page that compares SVG, .vtex and raster
+    #[command(hide = true)]
+    Demo(Demo),
+    /// Bake the drawings that `vtex bake` sends over standard input
+    #[command(hide = true)]
+    Worker(Worker),
+}
+
+const PROCESSES: &str = "Each file is baked in a separate process, at most --threads of them at a \
+    time. A process that needs more time than --timeout or more memory than --max-memory is stopped: \
+    its file fails with exit code 8, and the other files are still baked.";
+
+const METRICS: &str = "The truth is the SVG, drawn by resvg without anti-aliasing at 257 samples \
+    per pixel (256 for drawings with filters, patterns or images) that are averaged in linear light. \
+    Both pictures are composited over white in linear light and then sRGB-encoded. PSNR is taken over \
+    R, G and B. A pixel is wrong if one of its channels differs by more than 8 of 255. At a zoom above \
+    1, --windows windows at edges of the drawing are compared, and the worst one counts.";
+
+/// Fonts for text.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct Fonts {
+    /// Folder with fonts for text, searched before the system fonts; repeat for more folders
+    #[arg(long, value_name = "DIR")]
+    pub(crate) font_dir: Vec<PathBuf>,
+    /// Ignore the system fonts, so that every machine bakes the same bytes
+    #[arg(long)]
+    pub(crate) no_system_fonts: bool,
+}
+
+/// `vtex bake`.
+#[derive(Debug, Args)]
+pub(crate) struct Bake {
+    /// SVG files, plain or gzipped; folders, searched for .svg and .svgz; globs; - for standard input
+    #[arg(required = true, value_name = "IN")]
+    pub(crate) inputs: Vec<PathBuf>,
+    /// Output file or folder; - for standard output
+    #[arg(short, long, value_name = "OUT")]
+    pub(crate) output: PathBuf,
+    /// What the bake makes.
+    #[command(flatten)]
+    pub(crate) options: BakeOptions,
+    /// Write nothing: compare with the existing outputs, and exit with 7 if one is missing or differs
+    #[arg(long)]
+    pub(crate) check: bool,
+    /// Write the dependencies of each output as Makefile rules
+    #[arg(long, value_name = "FILE")]
+    pub(crate) depfile: Option<PathBuf>,
+    /// Keep bakes in DIR, and reuse them while SVG, options, fonts and version are the same
+    #[arg(long, value_name = "DIR")]
+    pub(crate) cache_dir: Option<PathBuf>,
+    /// Limits for each file.
+    #[command(flatten)]
+    pub(crate) budget: Budget,
+}
+
+/// Limits for the process that bakes one file.
+#[derive(Clone, Copy, Debug, Args)]
+pub(crate) struct Budget {
+    /// Time limit for one file; a file that exceeds it fails with exit code 8
+    #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=604_800))]
+    pub(crate) timeout: u32,
+    /// Memory limit for one file; a file that exceeds it fails with exit code 8. Not enforced on
+    /// Windows
+    #[arg(long, value_name = "MIB", default_value_t = 2048, value_parser = clap::value_parser!(u32).range(16..=16_777_216))]
+    pub(crate) max_memory: u32,
+}
+
+/// `vtex worker`.
+#[derive(Debug, Args)]
+pub(crate) struct Worker {
+    /// The command line of the `vtex` that started this one
+    #[arg(last = true, required = true)]
+    pub(crate) command_line: Vec<OsString>,
+}
+
+/// Options that change what a bake makes.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct BakeOptions {
+    /// How shapes are stored
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) mode: BakeMode,
+    /// Zoom up to which edges stay sharp; at zoom 1 the canvas' longer side is 512 pixels
+    #[arg(long, value_name = "Z", default_value_t = BakeConfig::default().max_zoom)]
+    pub(crate) max_zoom: f32,
+    /// Largest error of an MSDF edge, in pixels at --max-zoom; shapes with a larger error are stored
+    /// as curves
+    #[arg(long, value_name = "PX", default_value_t = BakeConfig::default().error_px)]
+    pub(crate) error: f64,
+    /// Texels along the longer side of mip 0
+    #[arg(long, value_name = "N", default_value_t = BakeConfig::default().mip0_size)]
+    pub(crate) size: u32,
+    /// MSDF texels along the canvas' longer side
+    #[arg(long, value_name = "N", default_value_t = BakeConfig::default().msdf_size)]
+    pub(crate) msdf_size: u32,
+    /// Put all shapes into one layer; correct only if no shapes overlap
+    #[arg(long)]
+    pub(crate) merge: bool,
+    /// Store coverage without colours; lookups return it in all four channels
+    #[arg(long)]
+    pub(crate) mask: bool,
+    /// Half width of the constant edge smoothing of `--filter paper`, as a share of the MSDF's
+    /// distance range, in (0, 0.5]
+    #[arg(long, value_name = "S", default_value_t = BakeConfig::default().smoothing)]
+    pub(crate) smoothing: f32,
+    /// Draw an outline of WIDTH MSDF texels around every shape
+    #[arg(long, value_name = "WIDTH", num_args = 0..=1, default_missing_value = "1")]
+    pub(crate) outline: Option<f32>,
+    /// Replace the colour of every fill by a CSS colour, such as #d03020, navy or rgb(1 2 3)
+    #[arg(long, value_name = "COLOR", value_parser = color)]
+    pub(crate) fill_color: Option<Color>,
+    /// Replace the colour of every stroke, and of --outline, by a CSS colour
+    #[arg(long, value_name = "COLOR", value_parser = color)]
+    pub(crate) stroke_color: Option<Color>,
+    /// What a lookup outside the canvas returns [default: clamp]
+    #[arg(long, value_enum)]
+    pub(crate) address: Option<Address>,
+    /// Texture matrix of lookups: u' = a u + c v + e, v' = b u + d v + f
+    #[arg(long, value_name = "a,b,c,d,e,f", value_parser = matrix, allow_hyphen_values = true)]
+    pub(crate) transform: Option<Matrix>,
+    /// Also draw the image files in DIR and below that the SVG names; repeat for more folders.
+    /// Other image files are left out with a warning. Nothing is loaded from the network
+    #[arg(long, value_name = "DIR")]
+    pub(crate) allow_images: Vec<PathBuf>,
+    /// Fonts for text.
+    #[command(flatten)]
+    pub(crate) fonts: Fonts,
+}
+
+/// How shapes are stored.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum BakeMode {
+    /// Whatever is best for each shape
+    #[default]
+    Auto,
+    /// Multi-channel signed distance fields (MSDF)
+    Msdf,
+    /// Exact curves
+    Curves,
+    /// One raster image of the whole canvas, with mips
+    Raster,
+}
+
+/// What lookups outside the canvas see.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Address {
+    /// The nearest point of the canvas
+    Clamp,
+    /// The canvas, repeated
+    Repeat,
+    /// The canvas, repeated with every second copy mirrored
+    Mirror,
+    /// Transparent black
+    Border,
+}
+
+/// `vtex info`.
+#[derive(Debug, Args)]
+pub(crate) struct Info {
+    /// The .vtex file; - for standard input
+    pub(crate) file: PathBuf,
+}
+
+/// `vtex validate`.
+#[derive(Debug, Args)]
+pub(crate) struct Validate {
+    /// .vtex files; - for standard input
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+}
+
+/// How a texture is looked up.
+#[derive(Clone, Copy, Debug, Args)]
+pub(crate) struct Lookup {
+    /// How a lookup filters
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) filter: Filter,
+    /// Where lookups run
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) backend: Backend,
+    /// Samples per pixel
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    pub(crate) spp: u32,
+}
+
+/// How a lookup filters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Filter {
+    /// Hard edges: only the samples of a pixel smooth them
+    #[default]
+    Point,
+    /// Edges smoothed over the width of a sample's footprint
+    Footprint,
+    /// Edges smoothed over the constant width of `bake --smoothing`
+    Paper,
+}
+
+impl From<Filter> for FilterMode {
+    fn from(filter: Filter) -> Self {
+        match filter {
+            Filter::Point => Self::Point,
+            Filter::Footprint => Self::Footprint,
+            Filter::Paper => Self::Paper,
+        }
+    }
+}
+
+/// Where lookups run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Backend {
+    /// On the CPU, without a GPU
+    #[default]
+    Cpu,
+    /// On the best GPU adapter, or on the one that `VTEX_ADAPTER` names
+    Gpu,
+}
+
+/// `vtex preview`.
+#[derive(Debug, Args)]
+pub(crate) struct Preview {
+    /// The .vtex file; - for standard input
+    pub(crate) file: PathBuf,
+    /// PNG file to write; - for standard output
+    #[arg(short, long, value_name = "PNG")]
+    pub(crate) output: PathBuf,
+    /// Size in pixels: `WxH`, or N for the longer side
+    #[arg(long, default_value = "512", value_parser = size)]
+    pub(crate) size: Size,
+    /// Part of the canvas to show, in uv: left, top, right, bottom
+    #[arg(long, value_name = "u0,v0,u1,v1", value_parser = view, allow_hyphen_values = true)]
+    pub(crate) view: Option<View>,
+    /// How it is looked up.
+    #[command(flatten)]
+    pub(crate) lookup: Lookup,
+}
+
+/// `vtex compare`.
+#[derive(Debug, Args)]
+pub(crate) struct Compare {
+    /// The SVG file
+    #[arg(value_name = "IN.svg")]
+    pub(crate) svg: PathBuf,
+    /// The .vtex file baked from it
+    pub(crate) file: PathBuf,
+    /// Zooms to compare at; zoom 1 shows the whole canvas
+    #[arg(
+        long,
+        value_name = "Z,...",
+        value_delimiter = ',',
+        default_value = "1,8,32,256"
+    )]
+    pub(crate) zoom: Vec<f64>,
+    /// Pixels along the longer side of the pictures
+    #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(8..=8192))]
+    pub(crate) size: u32,
+    /// How it is looked up.
+    #[command(flatten)]
+    pub(crate) lookup: Lookup,
+    /// Exit with 7 if the PSNR at a zoom is below X dB
+    #[arg(long, value_name = "X")]
+    pub(crate) min_psnr: Option<f64>,
+    /// Number of windows to compare at each zoom above 1
+    #[arg(long, value_name = "N", default_value_t = WINDOWS, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub(crate) windows: u32,
+    /// Also print the noise of the truth in the worst window of each zoom: its PSNR against the
+    /// truth with half as many samples along each side of a pixel
+    #[arg(long)]
+    pub(crate) noise: bool,
+    /// Also write an HTML page that shows SVG, .vtex and a raster of 4096 texels side by side
+    #[arg(long, value_name = "DIR")]
+    pub(crate) html: Option<PathBuf>,
+    /// Also write pictures of the worst window: svg.png, vtex.png and difference.png, where
+    /// differences are amplified four times
+    #[arg(long, value_name = "DIR")]
+    pub(crate) pictures: Option<PathBuf>,
+    /// Fonts for text.
+    #[command(flatten)]
+    pub(crate) fonts: Fonts,
+}
+
+/// `vtex extract`.
+#[derive(Debug, Args)]
+pub(crate) struct Extract {
+    /// The .vtex file; - for standard input
+    pub(crate) file: PathBuf,
+    /// Folder to write into
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: PathBuf,
+}
+
+/// `vtex render`.
+#[derive(Debug, Args)]
+pub(crate) struct Render {
+    /// .svg or .vtex files: one is shown on a plane, several on objects in a showroom
+    #[arg(required = true, value_name = "SCENE")]
+    pub(crate) scene: Vec<PathBuf>,
+    /// File to write: .png (sRGB, tone-mapped in the showroom) or .exr (linear)
+    #[arg(short, long, value_name = "PNG|EXR")]
+    pub(crate) output: PathBuf,
+    /// Size in pixels: `WxH`, or N for the longer side
+    #[arg(long, default_value = "768", value_parser = size)]
+    pub(crate) size: Size,
+    /// Samples per pixel
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    pub(crate) spp: u32,
+    /// Most bounces of a path
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=64))]
+    pub(crate) bounces: u32,
+    /// Seed of the random numbers
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u32,
+    /// Use the showroom even for one file
+    #[arg(long)]
+    pub(crate) showroom: bool,
+    /// Fonts for text.
+    #[command(flatten)]
+    pub(crate) fonts: Fonts,
+}
+
+/// `vtex demo`, called by `tools/demo`.
+#[derive(Debug, Args)]
+pub(crate) struct Demo {
+    /// SVG files
+    #[arg(required = true, value_name = "IN")]
+    pub(crate) inputs: Vec<PathBuf>,
+    /// Folder to write into
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: PathBuf,
+    /// Pixels along the longer side of the pictures
+    #[arg(long, value_name = "N", default_value_t = 360, value_parser = clap::value_parser!(u32).range(8..=4096))]
+    pub(crate) size: u32,
+    /// Leave the path-traced picture out
+    #[arg(long)]
+    pub(crate) no_render: bool,
+    /// Fonts for text.
+    #[command(flatten)]
+    pub(crate) fonts: Fonts,
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn outline_takes_a_width_or_none() {
+        let parse = |arguments: &[&str]| {
+            let Command::Bake(bake) = Cli::try_parse_from(arguments).unwrap().command else {
+                unreachable!("bake was asked for");
+            };
+            bake.options.outline
+        };
+        assert_eq!(
+            parse(&["vtex", "bake", "a.svg", "-o", "b", "--outline"]),
+            Some(1.0)
+        );
+        assert_eq!(
+            parse(&["vtex", "bake", "a.svg", "-o", "b", "--outline", "1.5"]),
+            Some(1.5)
+        );
+        assert_eq!(parse(&["vtex", "bake", "a.svg", "-o", "b"]), None);
+    }
+}

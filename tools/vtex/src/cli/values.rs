@@ -1,0 +1,95 @@
+//! Values of options: how the text on the command line is read.
+
+use vtex_truth::picture::View;
+
+/// A colour, straight alpha, sRGB-encoded. A struct, so that clap does not see a list.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Color(pub [f32; 4]);
+
+/// A texture matrix. A struct, so that clap does not see a list.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Matrix(pub [f32; 6]);
+
+/// Pixels of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Size {
+    /// The longer side; the other follows from what is shown.
+    Longer(u32),
+    /// Both sides.
+    Exact([u32; 2]),
+}
+
+/// Most pixels along a side of a picture.
+const MAX_SIDE_PX: u32 = 16_384;
+
+pub(super) fn size(text: &str) -> Result<Size, String> {
+    let side = |text: &str| match text.trim().parse() {
+        Ok(side @ 1..=MAX_SIDE_PX) => Ok(side),
+        _ => Err(format!("a side must be 1 to {MAX_SIDE_PX} pixels")),
+    };
+    match text.split_once(['x', 'X']) {
+        Some((width, height)) => Ok(Size::Exact([side(width)?, side(height)?])),
+        None => Ok(Size::Longer(side(text)?)),
+    }
+}
+
+fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    numbers
+        .ok()
+        .filter(|numbers| numbers.iter().all(|number| number.is_finite()))
+        .and_then(|numbers| numbers.try_into().ok())
+        .ok_or_else(|| format!("expected {N} numbers, separated by commas"))
+}
+
+pub(super) fn view(text: &str) -> Result<View, String> {
+    let [u0, v0, u1, v1] = numbers(text)?;
+    if u0 < u1 && v0 < v1 {
+        Ok(View { u0, v0, u1, v1 })
+    } else {
+        Err("left must be less than right, and top less than bottom".to_owned())
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "the format stores f32")]
+pub(super) fn matrix(text: &str) -> Result<Matrix, String> {
+    numbers(text).map(|matrix: [f64; 6]| Matrix(matrix.map(|number| number as f32)))
+}
+
+/// Parses a CSS colour (`#rgb`, `#rrggbbaa`, `rgb(...)`, `hsl(...)`, a name): straight alpha,
+/// sRGB-encoded.
+///
+/// # Errors
+/// A sentence when the text is no colour.
+pub(super) fn color(text: &str) -> Result<Color, String> {
+    let color: svgtypes::Color = text
+        .trim()
+        .parse()
+        .map_err(|_| "not a CSS colour, such as #d03020 or navy".to_owned())?;
+    let channels = [color.red, color.green, color.blue, color.alpha];
+    Ok(Color(channels.map(|c| f32::from(c) / 255.0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values() {
+        assert_eq!(size("640x480"), Ok(Size::Exact([640, 480])));
+        assert_eq!(size("512"), Ok(Size::Longer(512)));
+        assert!(size("0").is_err() && size("9x").is_err());
+        assert!(view("0,0,1").is_err() && view("1,0,0,1").is_err());
+        assert_eq!(
+            matrix("1,0,0,1,-.5,2"),
+            Ok(Matrix([1.0, 0.0, 0.0, 1.0, -0.5, 2.0]))
+        );
+    }
+
+    #[test]
+    fn colours_by_name_and_hex() {
+        assert_eq!(color("red"), Ok(Color([1.0, 0.0, 0.0, 1.0])));
+        assert_eq!(color("#00f8"), Ok(Color([0.0, 0.0, 1.0, 136.0 / 255.0])));
+        assert!(color("reddish").is_err());
+    }
+}

@@ -1,0 +1,415 @@
+//! `vtex info`.
+
+use std::fmt::Write as _;
+
+use serde_json::{Value, json};
+use vtex_format::{
+    COVERAGE_IMAGE, CellWord, Directory, Features, Limits, ShapeRecord, VtexFile, Warning,
+    directory,
+};
+use vtex_truth::comparison::human_bytes;
+use vtex_truth::texture::patch_cover;
+
+use crate::cli::args::Info;
+use crate::cli::{Console, ExitCode, Format, Outcome};
+use crate::files::input;
+use crate::texture;
+use crate::texture::heat::cell_loads;
+use crate::texture::lookup_cost::{Spread, lookup_load};
+
+mod shapes;
+
+use shapes::{shape_json, shapes};
+
+/// Most shapes listed without `--verbose`.
+const SHAPES_SHOWN: usize = 24;
+
+/// Runs `vtex info`.
+pub(super) fn run(args: &Info, console: Console) -> Outcome<ExitCode> {
+    let bytes = input::read(&args.file)?;
+    let file = texture::parse(&args.file, &bytes)?;
+    let directory = directory(&bytes, &Limits::default())
+        .map_err(|error| texture::read_failure(&args.file, &error))?;
+    match console.format {
+        Format::Json => console.json(&json(&file, &directory))?,
+        Format::Text => {
+            let all = console.verbosity == crate::cli::Verbosity::Verbose;
+            let shown = if all { usize::MAX } else { SHAPES_SHOWN };
+            console.result(text(&file, &directory, shown).as_bytes())?;
+        }
+    }
+    Ok(ExitCode::Ok)
+}
+
+/// How many cells are empty, hold a single paint, or hold a list.
+struct CellStats {
+    empty: u64,
+    single: u64,
+    lists: u64,
+    entries_mean: f64,
+    entries_max: u32,
+}
+
+impl CellStats {
+    fn new(file: &VtexFile) -> Self {
+        let count = |wanted: fn(CellWord) -> bool| {
+            let words = file.cells.iter().filter_map(|&word| CellWord::decode(word));
+            words.filter(|&cell| wanted(cell)).count() as u64
+        };
+        let lists = count(|cell| matches!(cell, CellWord::List { .. }));
+        let loads = cell_loads(file);
+        let lengths = || loads.iter().map(|load| load.entries);
+        let listed: u64 = lengths().map(u64::from).sum();
+        Self {
+            empty: count(|cell| cell == CellWord::Empty),
+            single: count(|cell| matches!(cell, CellWord::Solid { .. })),
+            lists,
+            entries_mean: listed as f64 / lists.max(1) as f64,
+            entries_max: lengths().max().unwrap_or(0),
+        }
+    }
+}
+
+/// Names of the features in a spec key.
+pub(crate) fn feature_names(features: u32) -> Vec<&'static str> {
+    let names = [
+        (Features::LISTS, "lists"),
+        (Features::MSDF, "msdf"),
+        (Features::IMAGES, "images"),
+        (Features::MIPS, "mips"),
+        (Features::TRANSLUCENT, "translucent"),
+        (Features::MASK, "mask"),
+        (Features::OUTLINE, "outline"),
+        (Features::TEXTURE_MATRIX, "texture-matrix"),
+        (Features::CURVES, "curves"),
+        (Features::RAMPS, "ramps"),
+        (Features::GRADIENTS, "gradients"),
+        (Features::CLIPS, "clips"),
+        (Features::GROUPS, "groups"),
+        (Features::BLENDS, "blends"),
+    ];
+    names
+        .into_iter()
+        .filter(|(bit, _)| features & bit != 0)
+        .map(|(_, name)| name)
+        .collect()
+}
+
+fn json(file: &VtexFile, directory: &Directory) -> Value {
+    let meta = &file.meta;
+    let cells = CellStats::new(file);
+    let lookups = lookup_load(file);
+    let patches = patch_cover(file);
+    let provenance = file.provenance.as_ref();
+    let layers: Vec<_> = (0..)
+        .zip(&file.layers)
+        .map(|(index, layer)| json!({"tiles": layer.tile_count, "shapes": members(file, index)}))
+        .collect();
+    let images: Vec<_> = file.images.iter().map(|image| {
+        json!({"rect_uv": image.rect_uv, "size": image.size, "levels": image.mips.len()})
+    }).collect();
+    let sections: Vec<_> = directory.sections.iter().map(|section| json!({
+        "tag": section.tag.to_string(), "codec": format!("{:?}", section.codec).to_lowercase(),
+        "raw_bytes": section.raw_bytes, "stored_bytes": section.stored_bytes,
+        "group": section.group, "mip": section.mip,
+    })).collect();
+    let shapes: Vec<_> = file
+        .shapes
+        .iter()
+        .enumerate()
+        .map(|(index, shape)| shape_json(file, index, shape))
+        .collect();
+    json!({
+        "version": format!("{}.{}", directory.version_major, directory.version_minor),
+        "file_bytes": directory.file_bytes,
+        "raw_bytes": raw_bytes(directory),
+        "canvas_size": meta.canvas_size,
+        "max_zoom": meta.max_zoom,
+        "grid": {
+            "size_cells": meta.grid.size_cells, "texels_per_cell": meta.grid.texels_per_cell,
+            "distance_range_texels": meta.distance_range_texels,
+        },
+        "sampler": {
+            "address": meta.sampler.address.map(|mode| format!("{mode:?}").to_lowercase()),
+            "texture_matrix": meta.sampler.texture_matrix, "smoothing": meta.sampler.smoothing,
+            "mask": meta.sampler.mask,
+            "outline_texels": meta.sampler.outline.map(|outline| outline.width_texels),
+        },
+        "cells": {
+            "empty": cells.empty, "single": cells.single, "lists": cells.lists,
+            "entries_mean": cells.entries_mean, "entries_max": cells.entries_max,
+        },
+        "lookups": {
+            "entries_mean": lookups.entries.mean, "entries_p99": lookups.entries.p99,
+            "segments_mean": lookups.segments.mean, "segments_p99": lookups.segments.p99,
+        },
+        "tiles": tile_count(file), "paints": file.paints.len(),
+        "layers": layers, "shapes": shapes, "images": images, "sections": sections,
+        "shader": {
+            "abi": file.spec.abi, "features": feature_names(file.spec.features),
+            "key": spec_words(file), "wgsl_bytes": file.shader.wgsl_fragment.len(),
+            "spirv_bytes": 4 * file.shader.batch_spirv.len(),
+        },
+        "tool": provenance.map(|p| &p.tool),
+        "source_hash": provenance.map(|p| hex(&p.source_hash)),
+        "options": provenance.map(|p| &p.options),
+        "patches": {"count": patches.count, "area": patches.area},
+        "warnings": warnings_json(provenance.map_or(&[], |p| &p.warnings)),
+    })
+}
+
+/// Indices of a layer's shapes in the painter's order.
+fn members(file: &VtexFile, layer: u32) -> Vec<usize> {
+    let in_layer =
+        |shape: &ShapeRecord| shape.coverage != COVERAGE_IMAGE && shape.layer_or_image == layer;
+    let shapes = file.shapes.iter().enumerate();
+    shapes
+        .filter(|(_, shape)| in_layer(shape))
+        .map(|(index, _)| index)
+        .collect()
+}
+
+fn spec_words(file: &VtexFile) -> String {
+    hex(bytemuck::bytes_of(&file.spec))
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::new(), |mut text, byte| {
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
+}
+
+fn tile_count(file: &VtexFile) -> u64 {
+    file.layers
+        .iter()
+        .map(|layer| u64::from(layer.tile_count))
+        .sum()
+}
+
+fn raw_bytes(directory: &Directory) -> u64 {
+    directory
+        .sections
+        .iter()
+        .map(|section| section.raw_bytes)
+        .sum()
+}
+
+/// Warnings as JSON.
+pub(super) fn warnings_json(warnings: &[Warning]) -> Value {
+    warnings
+        .iter()
+        .map(|warning| {
+            json!({
+                "code": warning.code as u32, "name": format!("{:?}", warning.code),
+                "feature": warning.feature, "element": warning.element, "message": warning.message,
+                "area": warning.area,
+            })
+        })
+        .collect()
+}
+
+/// A warning as a line of text.
+pub(super) fn warning_text(warning: &Warning) -> String {
+    match warning.element.as_str() {
+        "" => warning.message.clone(),
+        element => format!("#{element}: {}", warning.message),
+    }
+}
+
+fn text(file: &VtexFile, directory: &Directory, shapes_shown: usize) -> String {
+    let mut out = String::new();
+    // Writing to a String does not fail.
+    let _ = general(&mut out, file, directory);
+    let _ = layers(&mut out, file);
+    let _ = shapes(&mut out, file, shapes_shown);
+    let _ = images(&mut out, file);
+    let _ = sections(&mut out, directory);
+    let _ = warnings(&mut out, file);
+    out
+}
+
+fn general(out: &mut String, file: &VtexFile, directory: &Directory) -> std::fmt::Result {
+    let meta = &file.meta;
+    let grid = &meta.grid;
+    let cells = CellStats::new(file);
+    let total = file.cells.len().max(1) as f64;
+    let share = |count: u64| 100.0 * count as f64 / total;
+    writeln!(
+        out,
+        "format     {}.{}, {} ({} raw)",
+        directory.version_major,
+        directory.version_minor,
+        human_bytes(directory.file_bytes),
+        human_bytes(raw_bytes(directory))
+    )?;
+    if let Some(provenance) = &file.provenance {
+        writeln!(
+            out,
+            "made by    {} from an SVG with hash {}",
+            provenance.tool,
+            hex(&provenance.source_hash)
+        )?;
+    }
+    let [width, height] = meta.canvas_size;
+    writeln!(
+        out,
+        "canvas     {width} x {height} user units, prepared for zoom {}",
+        meta.max_zoom
+    )?;
+    writeln!(
+        out,
+        "cells      {} x {}: {} empty ({:.1}%), {} single colour ({:.1}%), {} lists ({:.1}%)",
+        grid.size_cells[0],
+        grid.size_cells[1],
+        cells.empty,
+        share(cells.empty),
+        cells.single,
+        share(cells.single),
+        cells.lists,
+        share(cells.lists)
+    )?;
+    writeln!(
+        out,
+        "lists      {:.2} entries on average, {} at most",
+        cells.entries_mean, cells.entries_max
+    )?;
+    let lookups = lookup_load(file);
+    let spread = |Spread { mean, p99 }| format!("{mean:.2} (p99 {p99})");
+    writeln!(
+        out,
+        "lookups    {} entries, {} segments at random points",
+        spread(lookups.entries),
+        spread(lookups.segments)
+    )?;
+    let side = grid.texels_per_cell + 1;
+    writeln!(
+        out,
+        "tiles      {} of {side} x {side} texels, distance range {} texels",
+        tile_count(file),
+        meta.distance_range_texels
+    )?;
+    writeln!(out, "paints     {}", file.paints.len())?;
+    writeln!(out, "sampler    {}", sampler(file))?;
+    writeln!(
+        out,
+        "shader     ABI {}, {}; WGSL {}, SPIR-V {}",
+        file.spec.abi,
+        feature_names(file.spec.features).join(" "),
+        human_bytes(file.shader.wgsl_fragment.len() as u64),
+        human_bytes(4 * file.shader.batch_spirv.len() as u64)
+    )?;
+    writeln!(out, "key        {}", spec_words(file))
+}
+
+fn sampler(file: &VtexFile) -> String {
+    let sampler = &file.meta.sampler;
+    let [u, v] = sampler
+        .address
+        .map(|mode| format!("{mode:?}").to_lowercase());
+    let address = if u == v { u } else { format!("{u} {v}") };
+    let mut text = format!("address {address}, smoothing {}", sampler.smoothing);
+    if file.spec.features & Features::TEXTURE_MATRIX != 0 {
+        let _ = write!(text, ", matrix {:?}", sampler.texture_matrix);
+    }
+    if let Some(outline) = sampler.outline {
+        let _ = write!(text, ", outline {} texels", outline.width_texels);
+    }
+    if sampler.mask {
+        text.push_str(", mask");
+    }
+    text
+}
+
+fn layers(out: &mut String, file: &VtexFile) -> std::fmt::Result {
+    writeln!(
+        out,
+        "\n{} layers, back to front\n{:>5} {:>8} {:>8}",
+        file.layers.len(),
+        "layer",
+        "shapes",
+        "tiles"
+    )?;
+    for (index, layer) in file.layers.iter().enumerate() {
+        writeln!(
+            out,
+            "{index:>5} {:>8} {:>8}",
+            layer.shape_count, layer.tile_count
+        )?;
+    }
+    Ok(())
+}
+
+fn images(out: &mut String, file: &VtexFile) -> std::fmt::Result {
+    writeln!(
+        out,
+        "\n{} images\n{:>5} {:>13} {:>7}  uv",
+        file.images.len(),
+        "image",
+        "texels",
+        "levels"
+    )?;
+    for (index, image) in file.images.iter().enumerate() {
+        let size = format!("{} x {}", image.size[0], image.size[1]);
+        let [u0, v0, u1, v1] = image.rect_uv;
+        let rect = format!("{u0:.4},{v0:.4} to {u1:.4},{v1:.4}");
+        let levels = image.mips.len();
+        let is_canvas = index == 0 && file.spec.features & Features::MIPS != 0;
+        let what = if is_canvas { "canvas mips, " } else { "" };
+        writeln!(out, "{index:>5} {size:>13} {levels:>7}  {what}{rect}")?;
+    }
+    let patches = patch_cover(file);
+    let (count, percent) = (patches.count, 100.0 * patches.area);
+    writeln!(
+        out,
+        "{count} raster patches, on {percent:.1}% of the canvas"
+    )
+}
+
+fn sections(out: &mut String, directory: &Directory) -> std::fmt::Result {
+    writeln!(
+        out,
+        "\nsections by tag\n{:5} {:>6} {:>12} {:>12}",
+        "tag", "parts", "raw", "stored"
+    )?;
+    let mut tags: Vec<_> = directory
+        .sections
+        .iter()
+        .map(|section| section.tag)
+        .collect();
+    tags.dedup();
+    for tag in tags {
+        let parts = || {
+            directory
+                .sections
+                .iter()
+                .filter(|section| section.tag == tag)
+        };
+        let raw: u64 = parts().map(|section| section.raw_bytes).sum();
+        let stored: u64 = parts().map(|section| section.stored_bytes).sum();
+        let tag = tag.to_string();
+        writeln!(out, "{tag:5} {:>6} {raw:>12} {stored:>12}", parts().count())?;
+    }
+    let raw = raw_bytes(directory);
+    writeln!(
+        out,
+        "{:5} {:>6} {raw:>12} {:>12}",
+        "all",
+        directory.sections.len(),
+        directory.file_bytes
+    )
+}
+
+fn warnings(out: &mut String, file: &VtexFile) -> std::fmt::Result {
+    let warnings = file.provenance.as_ref().map_or(&[][..], |p| &p.warnings);
+    writeln!(out, "\n{} warnings", warnings.len())?;
+    for warning in warnings {
+        let (code, feature) = (warning.code, &warning.feature);
+        write!(out, "  {code:?} {feature}: {}", warning_text(warning))?;
+        match warning.area > 0.0 {
+            true => writeln!(out, " ({:.1}% of the canvas)", 100.0 * warning.area)?,
+            false => writeln!(out)?,
+        }
+    }
+    Ok(())
+}

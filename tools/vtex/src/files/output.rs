@@ -1,0 +1,136 @@
+//! Writing files: each is written completely or not at all.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use vtex_truth::comparison::Page;
+
+use crate::cli::{ExitCode, Failure, Outcome};
+
+/// Writes `bytes` to `path`. The bytes go to a temporary file in the same folder, which is then
+/// renamed to `path`: no reader ever sees half a file, and a failure leaves the old file in place.
+/// Devices and pipes are written directly.
+///
+/// # Errors
+/// When the folder is missing or the file cannot be written.
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Outcome<()> {
+    let target = resolve(path);
+    match fs::metadata(&target) {
+        Ok(existing) if existing.is_dir() => Err(Failure::new(
+            ExitCode::Io,
+            format!("{}: this is a folder; name a file", path.display()),
+        )),
+        Ok(existing) if !existing.is_file() => fs::OpenOptions::new()
+            .write(true)
+            .open(&target)
+            .and_then(|mut device| device.write_all(bytes).and_then(|()| device.flush()))
+            .map_err(|error| Failure::io("write", path, &error)),
+        _ => replace(&target, bytes).map_err(|error| explain(path, &error)),
+    }
+}
+
+/// Follows links, so that writing to a link replaces its target and not the link.
+fn resolve(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".vtex-").suffix(".tmp");
+    let permissions = fs::metadata(path)
+        .ok()
+        .map(|existing| existing.permissions());
+    #[cfg(unix)]
+    let permissions = permissions.or_else(|| {
+        use std::os::unix::fs::PermissionsExt;
+        // The mode that `File::create` uses, from which the umask is subtracted. Temporary files are
+        // private otherwise.
+        Some(fs::Permissions::from_mode(0o666))
+    });
+    if let Some(permissions) = permissions.filter(|p| !p.readonly()) {
+        builder.permissions(permissions);
+    }
+    let mut file = builder.tempfile_in(folder_of(path))?;
+    file.write_all(bytes)?;
+    file.flush()?;
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}
+
+fn explain(path: &Path, error: &io::Error) -> Failure {
+    let folder = folder_of(path);
+    if error.kind() == io::ErrorKind::NotFound && !folder.is_dir() {
+        return Failure::new(
+            ExitCode::Io,
+            format!(
+                "{}: the folder {} does not exist; create it first",
+                path.display(),
+                folder.display()
+            ),
+        );
+    }
+    Failure::io("write", path, error)
+}
+
+/// Writes a page into `folder`, the pictures before the text that shows them.
+///
+/// # Errors
+/// When the folder cannot be created or a file cannot be written.
+pub(crate) fn write_page(folder: &Path, page: Page) -> Outcome<()> {
+    for file in page.finish() {
+        let path = folder.join(&file.name);
+        create_folder(folder_of(&path))?;
+        write(&path, &file.bytes)?;
+    }
+    Ok(())
+}
+
+/// Creates a folder and those above it.
+///
+/// # Errors
+/// When it cannot be created.
+pub(crate) fn create_folder(path: &Path) -> Outcome<()> {
+    fs::create_dir_all(path).map_err(|error| Failure::io("create the folder", path, &error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failure_leaves_no_file_and_names_the_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        let failure = write(&folder.path().join("no/such/x.vtex"), b"x").unwrap_err();
+        assert_eq!(failure.code, ExitCode::Io, "{failure}");
+        assert!(failure.message.contains("does not exist"), "{failure}");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn an_existing_file_is_replaced_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("x");
+        write(&path, b"a long first version").unwrap();
+        write(&path, b"short").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"short");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_full_device_is_reported_and_not_renamed_over() {
+        use std::os::unix::fs::FileTypeExt;
+        let failure = write(Path::new("/dev/full"), b"x").unwrap_err();
+        assert_eq!(failure.code, ExitCode::Io, "{failure}");
+        let device = fs::metadata("/dev/full").unwrap();
+        assert!(device.file_type().is_char_device());
+    }
+}
