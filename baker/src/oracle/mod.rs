@@ -5,7 +5,7 @@
 
 mod blend;
 pub(crate) mod gradient;
-mod painter;
+mod point;
 mod tree;
 
-pub use painter::Painter;
+pub use point::Oracle;

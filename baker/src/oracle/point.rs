@@ -1,4 +1,5 @@
-//! The painter: tests every outline at a point and paints the items that contain it.
+//! Lookups at a point: every outline is tested, and the items that contain the point are
+//! composited.
 //!
 //! It shares with curve records what they are made from: monotone lines and quadratics between
 //! points of the curve lattice ([`LoweredOutline`]). It shares nothing of what is done with them:
@@ -30,9 +31,9 @@ const ROWS: usize = 4096;
 /// Places along a segment that each round of the search for its nearest point tries.
 const PLACES: u32 = 64;
 
-/// Paints one point at a time from the outlines of a drawing. Slow.
+/// Answers lookups at points from the outlines of a drawing. Slow.
 #[derive(Debug)]
-pub struct Painter {
+pub struct Oracle {
     units_per_uv: [f64; 2],
     offset_units: [f64; 2],
     tree: Tree,
@@ -54,8 +55,8 @@ struct Painted {
     end: u32,
 }
 
-impl Painter {
-    /// A painter of `svg`, on the curve lattice of `file`, which was baked from it with `config`.
+impl Oracle {
+    /// The oracle of `svg`, on the curve lattice of `file`, which was baked from it with `config`.
     ///
     /// `None` when the file holds anything but curves.
     ///
@@ -78,7 +79,7 @@ impl Painter {
         let canvas = steps.canvas.scale_from_origin(units_per_step);
         let rows = f64::from(file.meta.grid.size_cells[1] * lattice.units_per_cell);
         let canvas_longer = drawing.longer_side();
-        let mut painter = Self {
+        let mut oracle = Self {
             units_per_uv: [canvas.width(), canvas.height()],
             offset_units: [canvas.x0, canvas.y0],
             tree: drawing.tree,
@@ -98,10 +99,10 @@ impl Painter {
             let Ok(lowered) = LoweredOutline::new(&outline, tolerance) else {
                 return Ok(None);
             };
-            painter.push(lowered, rule, paint.cloned());
+            oracle.push(lowered, rule, paint.cloned());
         }
-        painter.sort_into_rows();
-        Ok(Some(painter))
+        oracle.sort_into_rows();
+        Ok(Some(oracle))
     }
 
     fn push(&mut self, lowered: LoweredOutline, rule: FillRule, paint: Option<Paint>) {
@@ -285,24 +286,24 @@ fn linear(premultiplied: [f64; 4]) -> [f32; 4] {
 mod tests {
     use super::*;
 
-    fn painter(svg: &str) -> Painter {
+    fn oracle(svg: &str) -> Oracle {
         let (config, resources) = (BakeConfig::default(), Resources::default());
         let file = crate::bake(svg.as_bytes(), &config, &resources).unwrap();
-        let painter = Painter::new(svg.as_bytes(), &config, &resources, &file);
-        painter.unwrap().unwrap()
+        let oracle = Oracle::new(svg.as_bytes(), &config, &resources, &file);
+        oracle.unwrap().unwrap()
     }
 
     #[test]
     fn what_is_in_front_shows() {
-        let painter = painter(
+        let oracle = oracle(
             "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 10 10'>\
              <path d='M2 2H8V8H2z' fill='#f00'/><circle cx='5' cy='5' r='1' fill='#00f'/>\
              <path d='M6 2H8V8H6z' fill='#fff' fill-opacity='.5'/></svg>",
         );
-        assert_eq!(painter.color([0.1, 0.5]), [0.0; 4]);
-        assert_eq!(painter.color([0.3, 0.5]), [1.0, 0.0, 0.0, 1.0]);
-        assert_eq!(painter.color([0.5, 0.5]), [0.0, 0.0, 1.0, 1.0]);
-        let [r, g, b, a] = painter.color([0.7, 0.5]);
+        assert_eq!(oracle.color([0.1, 0.5]), [0.0; 4]);
+        assert_eq!(oracle.color([0.3, 0.5]), [1.0, 0.0, 0.0, 1.0]);
+        assert_eq!(oracle.color([0.5, 0.5]), [0.0, 0.0, 1.0, 1.0]);
+        let [r, g, b, a] = oracle.color([0.7, 0.5]);
         let half = decode([0.5; 3])[0];
         assert!(
             (g - half).abs() < 1e-6 && (b - half).abs() < 1e-6,
@@ -313,18 +314,18 @@ mod tests {
 
     #[test]
     fn distances_are_in_units_of_the_lattice() {
-        let painter = painter(
+        let oracle = oracle(
             "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 10 10'>\
              <circle cx='5' cy='5' r='3'/></svg>",
         );
-        let step = 1.0 / painter.units_per_uv[0];
+        let step = 1.0 / oracle.units_per_uv[0];
         for (off, expected) in [(3.0, 3.0), (-3.0, 3.0), (0.0, 0.0)] {
             let x = 0.8 + off * step;
             #[expect(clippy::cast_possible_truncation, reason = "lookups take f32")]
-            let found = painter.edge_distance_units([x as f32, 0.5], 20.0);
+            let found = oracle.edge_distance_units([x as f32, 0.5], 20.0);
             // The lattice, lowering and f32 of the lookup: a unit or two.
             assert!((found - expected).abs() < 2.0, "{off}: {found}");
         }
-        assert!(painter.edge_distance_units([0.5, 0.5], 20.0).is_infinite());
+        assert!(oracle.edge_distance_units([0.5, 0.5], 20.0).is_infinite());
     }
 }
