@@ -5,6 +5,22 @@ use std::sync::{Mutex, PoisonError};
 
 use vtex_format::{Warning, WarningCode};
 
+/// A warning without an area. `element` is an `id` and may be empty.
+pub(crate) fn plain(
+    code: WarningCode,
+    feature: &str,
+    element: &str,
+    message: impl Into<String>,
+) -> Warning {
+    Warning {
+        code,
+        feature: feature.to_owned(),
+        element: element.to_owned(),
+        message: message.into(),
+        area: 0.0,
+    }
+}
+
 /// Warnings, in the order in which each was first reported.
 ///
 /// They are shared by reference and locked because usvg's hooks are `Fn + Sync`. All reports come
@@ -13,7 +29,7 @@ use vtex_format::{Warning, WarningCode};
 pub(crate) struct Warnings(Mutex<Vec<Warning>>);
 
 impl Warnings {
-    /// Adds one warning without an area. `element` is an `id` and may be empty.
+    /// Adds one warning without an area, see [`plain`].
     pub(crate) fn push(
         &self,
         code: WarningCode,
@@ -21,13 +37,7 @@ impl Warnings {
         element: &str,
         message: impl Into<String>,
     ) {
-        self.add(Warning {
-            code,
-            feature: feature.to_owned(),
-            element: element.to_owned(),
-            message: message.into(),
-            area: 0.0,
-        });
+        self.add(plain(code, feature, element, message));
     }
 
     /// Adds one warning.

@@ -4,20 +4,23 @@ use kurbo::Affine;
 use rayon::prelude::*;
 use vtex_format::{CurveLattice, SourceOutline, cut::CellCurves};
 
-use crate::coverage::{
-    classify::{ShapeCells, classify},
-    curve_lattice::{curve_lattice, flatness_units},
-    curves::{
-        CurveError,
-        lower::LoweredOutline,
-        record::encode_record,
-        split::split,
-        stored_outline::stored_outline,
-        sweep::{CutParams, cut_to_cells},
+use crate::{
+    coverage::{
+        classify::{ShapeCells, classify},
+        curve_lattice::{curve_lattice, flatness_units},
+        curves::{
+            CurveError,
+            lower::LoweredOutline,
+            record::encode_record,
+            split::split,
+            stored_outline::stored_outline,
+            sweep::{CutParams, cut_to_cells},
+        },
+        grid::Lattice,
+        placed::{Placed, PlacedKind},
+        scales::Scales,
     },
-    grid::Lattice,
-    placed::{Placed, PlacedKind},
-    scales::Scales,
+    drawing::FillRule,
 };
 
 /// Segments of one shape in one cell. A shape with more would leave no room for others in the
@@ -118,36 +121,27 @@ impl Cutter {
         let source = stored_outline(&lowered, placed.rule);
         let mut cells = ShapeCells::default();
         // A cell without an edge in its box has one winding: inside or not.
-        for (cell, winding) in shape.covered {
-            if placed.rule.fills(winding) {
-                cells.full.push(cell);
-            }
-        }
+        let filled = shape.covered.into_iter();
+        let filled = filled.filter(|&(_, winding)| placed.rule.fills(winding));
+        cells.full = filled.map(|(cell, _)| cell).collect();
         let mut curves = Vec::with_capacity(shape.edges.len());
         let mut firsts = Vec::new();
         // A reader cuts the stored outline to whole cells, never to strips: with a strip the file
         // must hold the records themselves.
         let mut whole = true;
-        let size = f64::from(self.params.lattice.box_units());
         for (cell, cell_curves) in shape.edges {
             firsts.push(u32::try_from(curves.len()).map_err(|_| CurveError::Overflow)?);
-            let segments = cell_curves.segments.len();
-            let parts = match encode_record(&[&cell_curves], placed.rule) {
-                Ok(_) => vec![cell_curves],
-                Err(_) => {
-                    whole = false;
-                    split(cell_curves, placed.rule, size)?
-                }
-            };
-            // Checked after the split: strips together hold all segments again.
-            if segments > MAX_CELL_SEGMENTS {
+            cells.listed.push(cell);
+            // Strips hold all segments of the cell again, so they do not help here.
+            if cell_curves.segments.len() > MAX_CELL_SEGMENTS {
                 return Err(CurveError::Overflow);
             }
-            for part in &parts {
-                encode_record(&[part], placed.rule)?;
+            if encode_record(&[&cell_curves], placed.rule).is_ok() {
+                curves.push(cell_curves);
+            } else {
+                whole = false;
+                curves.extend(self.strips(cell_curves, placed.rule)?);
             }
-            cells.listed.push(cell);
-            curves.extend(parts);
         }
         let source = source.filter(|_| whole);
         // The usual case needs no table.
@@ -160,5 +154,14 @@ impl Cutter {
             source,
             firsts,
         })
+    }
+    /// The parts of a cell that is too much for one record. Each fits a record of its own.
+    fn strips(&self, cell: CellCurves, rule: FillRule) -> Result<Vec<CellCurves>, CurveError> {
+        let size = f64::from(self.params.lattice.box_units());
+        let parts = split(cell, rule, size)?;
+        for part in &parts {
+            encode_record(&[part], rule)?;
+        }
+        Ok(parts)
     }
 }

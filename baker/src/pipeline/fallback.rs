@@ -14,6 +14,7 @@ use crate::{
     drawing::{Drawing, Item, Patch},
     number::count,
     raster::patch::{self, PatchSettings},
+    warning,
 };
 
 /// Replaces shapes that cannot be curves by patches, and resolves all covers. Warns about each.
@@ -55,13 +56,8 @@ pub(crate) fn patch_failures(
 }
 
 fn clip_warning() -> Warning {
-    Warning {
-        code: WarningCode::PathFallback,
-        feature: "clipPath".into(),
-        element: String::new(),
-        message: "an outline to clip to is too complex for curves; nothing is clipped to it".into(),
-        area: 0.0,
-    }
+    let message = "an outline to clip to is too complex for curves; nothing is clipped to it";
+    warning::plain(WarningCode::PathFallback, "clipPath", "", message)
 }
 
 fn failure_warning(patch: &Patch, canvas_size: [f64; 2]) -> Warning {

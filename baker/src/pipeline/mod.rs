@@ -10,6 +10,7 @@ mod raster_mode;
 mod records;
 #[cfg(test)]
 mod tests;
+mod warnings;
 
 use vtex_format::VtexFile;
 

@@ -18,7 +18,7 @@ use crate::{
     drawing::{Item, Patch, Shape, tree::Tree},
     raster::mips::{self, LinearImage},
     svg::{Plan, Step, Subtree},
-    warning::Warnings,
+    warning::{self, Warnings},
 };
 use density::{MAX_PATCH_TEXELS, WANTED_DENSITY};
 use embedded::Embedded;
@@ -58,21 +58,11 @@ pub(crate) fn resolve(
     let mut place = Vec::with_capacity(painted.len());
     let mut coarse = false;
     for outcome in painted {
+        if let Outcome::Patch(_, density) = outcome {
+            coarse |= density < settings.wanted_density();
+        }
         let next = u32::try_from(items.len()).ok();
-        let item = match outcome {
-            Outcome::Item(item) => Some(item),
-            Outcome::Patch(patch, density) => {
-                coarse |= density < settings.wanted_density();
-                warnings.add(patch_warning(&patch, settings.canvas_size));
-                Some(Item::Patch(patch))
-            }
-            Outcome::Nothing => None,
-            Outcome::Failed(feature, element) => {
-                let message = format!("{feature} could not be painted and is left out");
-                warnings.push(WarningCode::RasterPatch, feature, &element, message);
-                None
-            }
-        };
+        let item = outcome.into_item(settings.canvas_size, warnings);
         place.push(item.as_ref().and(next));
         items.extend(item);
     }
@@ -122,6 +112,23 @@ impl Outcome {
         match window.patch(pixmap, source) {
             Some(patch) => Self::Patch(patch, density),
             None => Self::Nothing,
+        }
+    }
+
+    /// The item, if there is one. Warns about everything but geometry and embedded images.
+    fn into_item(self, canvas_size: [f64; 2], warnings: &Warnings) -> Option<Item> {
+        match self {
+            Self::Item(item) => Some(item),
+            Self::Patch(patch, _) => {
+                warnings.add(patch_warning(&patch, canvas_size));
+                Some(Item::Patch(patch))
+            }
+            Self::Nothing => None,
+            Self::Failed(feature, element) => {
+                let message = format!("{feature} could not be painted and is left out");
+                warnings.push(WarningCode::RasterPatch, feature, &element, message);
+                None
+            }
         }
     }
 }
@@ -182,15 +189,10 @@ fn patch_warning(patch: &Patch, canvas_size: [f64; 2]) -> Warning {
 }
 
 fn coarse_warning() -> Warning {
-    Warning {
-        code: WarningCode::Reduced,
-        feature: "raster".into(),
-        element: String::new(),
-        message: format!(
-            "raster patches have fewer than {WANTED_DENSITY} texels for each of mip 0, \
-             to keep within {} MiB",
-            MAX_PATCH_TEXELS * 16.0 / 3.0 / 1_048_576.0
-        ),
-        area: 0.0,
-    }
+    let mib = MAX_PATCH_TEXELS * 16.0 / 3.0 / 1_048_576.0;
+    let message = format!(
+        "raster patches have fewer than {WANTED_DENSITY} texels for each of mip 0, \
+         to keep within {mib} MiB"
+    );
+    warning::plain(WarningCode::Reduced, "raster", "", message)
 }
