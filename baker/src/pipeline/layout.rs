@@ -18,7 +18,7 @@ use crate::{
     raster::patch::PatchSettings,
 };
 
-/// Pieces of outlines in all cells of a grid that is tried. So many take 200 MiB.
+/// Most pieces of outlines in all cells of a grid that is tried. They take 200 MiB.
 const MAX_PIECES: f64 = 2e6;
 
 /// A drawing on its grid.
