@@ -9,3 +9,5 @@ mod point;
 mod tree;
 
 pub use point::Oracle;
+#[cfg(test)]
+pub(crate) use point::crossing;

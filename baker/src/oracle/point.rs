@@ -222,7 +222,7 @@ impl Oracle {
 
 /// What `segment` adds to the winding at `p`: its direction, if it crosses the height of `p` to the
 /// left of it. Half open, as the format says.
-fn crossing(segment: &Segment, p: Point) -> i32 {
+pub(crate) fn crossing(segment: &Segment, p: Point) -> i32 {
     let crosses = segment.start.y <= p.y && p.y < segment.end.y;
     if !crosses || p.x < segment.x_min() {
         return 0;

@@ -17,6 +17,7 @@ use super::{
 };
 use crate::{
     drawing::FillRule,
+    oracle::crossing,
     testing::{Random, closed},
 };
 
@@ -126,26 +127,7 @@ fn fills(winding: i32, rule: FillRule) -> bool {
 
 /// Winding of the lowered outline, every segment, in f64.
 fn true_winding(segments: &[Segment], p: Point) -> i32 {
-    segments
-        .iter()
-        .filter(|s| s.start.y <= p.y && p.y < s.end.y)
-        .filter(|s| p.x >= s.x_max() || (p.x >= s.x_min() && p.x >= x_at(s, p.y)))
-        .map(|s| s.direction)
-        .sum()
-}
-
-/// By bisection, so that it shares nothing with what it checks.
-fn x_at(segment: &Segment, y: f64) -> f64 {
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if segment.blossom(middle, middle).y <= y {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    segment.blossom(low, low).x
+    segments.iter().map(|segment| crossing(segment, p)).sum()
 }
 
 /// The parts of an outline along which both coordinates are monotone, with their ends.
