@@ -1,4 +1,4 @@
-//! What the user can ask of a bake.
+//! What the caller can ask of a bake.
 
 use std::fmt;
 use std::sync::Arc;
@@ -8,50 +8,51 @@ use vtex_format::AddressMode;
 
 use crate::BakeError;
 
-/// Pixels of the canvas' longer side at zoom 1.
+/// Pixels along the canvas' longer side at zoom 1. Zoom is a number the caller can picture only if
+/// it means pixels; 512 is the default size of mip 0.
 const PIXELS_AT_ZOOM_1: f64 = 512.0;
 
 /// Which coverage kinds a bake may use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
-    /// The best for each shape.
+    /// The judge decides for each shape.
     #[default]
     Auto,
-    /// Every shape an MSDF.
+    /// Every shape becomes an MSDF.
     Msdf,
-    /// Every shape exact curves.
+    /// Every shape becomes curves.
     Curves,
-    /// The whole canvas a raster image.
+    /// The whole canvas becomes one raster image.
     Raster,
 }
 
-/// Options of a bake; all are recorded in the file.
+/// Options of a bake. The file records all of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BakeConfig {
-    /// Coverage kinds.
+    /// Kinds of coverage.
     pub mode: Mode,
-    /// Texels of mip 0's longer side.
+    /// Texels along the longer side of mip 0.
     pub mip0_size: u32,
-    /// Texels of the MSDF lattice along the canvas' longer side.
+    /// Texels of the MSDF lattice along the canvas' longer side, at most.
     pub msdf_size: u32,
-    /// Full width of the distances an MSDF texel holds, in texels.
+    /// Full width of the distances that an MSDF texel can hold, in texels.
     pub distance_range_texels: f32,
-    /// Largest magnification that geometry is prepared for; 1 shows the canvas at 512 pixels.
+    /// Largest zoom that geometry is prepared for; 1 shows the canvas' longer side at 512 pixels.
     pub max_zoom: f32,
-    /// How far a distance field may displace an edge, in pixels at `max_zoom`, before the shape
-    /// becomes curves; for [`Mode::Auto`].
+    /// How far an MSDF may displace an edge, in pixels at `max_zoom`, before the shape becomes
+    /// curves. For [`Mode::Auto`].
     pub error_px: f64,
     /// Put all shapes into one layer, \[SFG22\]'s "merge all".
     pub merge: bool,
-    /// Output coverage only.
+    /// Lookups return alpha only.
     pub mask: bool,
-    /// Half width S of \[SFG22\] eq. 1, in units of the stored field.
+    /// Half width S of \[SFG22\] eq. 1, as a share of the distance range.
     pub smoothing: f32,
-    /// Width of \[SFG22\] eq. 2's outline in texels.
+    /// Width of the distance outline, \[SFG22\] eq. 2, in texels.
     pub outline_texels: Option<f32>,
-    /// Replaces every fill's colour: straight alpha, sRGB-encoded.
+    /// Replaces the paint of every fill: straight alpha, sRGB-encoded.
     pub fill_color: Option<[f32; 4]>,
-    /// Replaces every stroke's and the outline's colour.
+    /// Replaces the paint of every stroke and of the distance outline.
     pub stroke_color: Option<[f32; 4]>,
     /// Address modes along u and v.
     pub address: [AddressMode; 2],
@@ -81,8 +82,8 @@ impl Default for BakeConfig {
 }
 
 impl BakeConfig {
-    /// Pixels along the canvas' longer side at the largest zoom: what every tolerance in pixels is
-    /// measured by.
+    /// Pixels along the canvas' longer side at the largest zoom. Every tolerance that is given in
+    /// pixels becomes a length through this number.
     pub(crate) fn longer_side_px(&self) -> f64 {
         PIXELS_AT_ZOOM_1 * f64::from(self.max_zoom)
     }
@@ -146,32 +147,33 @@ impl BakeConfig {
     }
 }
 
-/// What a bake may use besides the SVG; the baker itself opens no file.
+/// What a bake may use besides the SVG. The baker itself opens no file.
 #[derive(Clone, Debug, Default)]
 pub struct Resources {
     /// Fonts for text.
     pub fonts: Arc<fontdb::Database>,
-    /// Reads images that the SVG names instead of embedding them; without it they are left out
-    /// with a warning.
+    /// Reads images that the SVG links to. Without a reader they are left out with a warning.
     pub images: Option<ImageReader>,
 }
 
-/// Reads what an `<image>` or `feImage` names. The baker hands the reference on as it stands in
-/// the SVG, which nobody vouches for: it is the reader who refuses what must not be read. SVG
-/// images that come this way get no files of their own.
+/// Reads the file that an `<image>` or `feImage` links to.
+///
+/// The reader gets the link exactly as the SVG gives it. The SVG may be hostile, so the reader must
+/// refuse every path that it should not read. An SVG image that is read this way cannot link to
+/// files of its own.
 #[derive(Clone)]
 pub struct ImageReader(Arc<ReadImage>);
 
-/// From a reference to an image file's bytes, or to why there are none, in a few words.
+/// From a link to the bytes of an image file, or to a few words on why there are none.
 type ReadImage = dyn Fn(&str) -> Result<Vec<u8>, String> + Send + Sync;
 
 impl ImageReader {
-    /// A reader that calls `read`, once for each `<image>`.
+    /// A reader that calls `read` once for each `<image>`.
     pub fn new(read: impl Fn(&str) -> Result<Vec<u8>, String> + Send + Sync + 'static) -> Self {
         Self(Arc::new(read))
     }
 
-    /// The bytes behind a reference.
+    /// The bytes behind a link.
     pub(crate) fn read(&self, reference: &str) -> Result<Vec<u8>, String> {
         (self.0)(reference)
     }
@@ -183,24 +185,24 @@ impl fmt::Debug for ImageReader {
     }
 }
 
-/// Steps of a bake in order, told to the caller as each begins.
+/// Stages of a bake, in order. [`crate::bake_observed`] reports each as it begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// SVG text to usvg tree.
+    /// From SVG text to usvg's tree.
     Parse,
-    /// Tree to shapes and patches.
+    /// From the tree to shapes and patches.
     Draw,
-    /// Outlines made simple.
+    /// Outlines are prepared, and each shape gets its kind of coverage.
     Prepare,
-    /// Shapes into layers.
+    /// Shapes are packed into layers.
     Pack,
-    /// Cells and their entries.
+    /// Each cell gets its list of entries.
     Cells,
-    /// MSDF tiles.
+    /// MSDF tiles are rendered.
     Msdf,
-    /// Shader and records.
+    /// Records and the shader are made.
     Encode,
-    /// Mips of the canvas.
+    /// Mips of the canvas are made.
     Mips,
 }
 

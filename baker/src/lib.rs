@@ -1,4 +1,4 @@
-//! SVG in, [`VtexFile`] out: pure, deterministic at any thread count.
+//! SVG in, [`VtexFile`] out.
 //!
 //! ```
 //! use vtex_baker::{BakeConfig, Resources, bake};
@@ -12,13 +12,40 @@
 //! # Ok::<(), vtex_baker::BakeError>(())
 //! ```
 //!
-//! The baker opens no file and starts no process. It refuses what asks for too much before work
-//! starts ([`BakeError::Limit`]): bytes of text, packed, unpacked and with entities expanded; nodes,
-//! segments and nesting; pixels of images; the work of filters. That bounds what is known to grow,
-//! but a call cannot be cancelled, an allocation that the system refuses ends the process, and so
-//! does a stack that is too small: up to 1024 levels nest, for which `vtex bake` gives the threads
-//! of its rayon pool 64 MiB each. Who bakes input that nobody vouches for does that in such a pool
-//! and in a process of its own with limits of time and memory, as `vtex bake` does.
+//! # Guarantees
+//!
+//! A bake is a pure function of its three arguments. It opens no file, reads no clock and starts no
+//! process, and it gives the same bytes at any number of threads. It uses the rayon pool of the
+//! thread that calls it.
+//!
+//! The file holds a list of warnings ([`Provenance::warnings`]): each names what in the SVG was
+//! approximated or left out. Fonts and images come from [`Resources`] alone; without them text and
+//! linked images are left out with a warning.
+//!
+//! # Untrusted input
+//!
+//! A bake refuses input that asks for too much with [`BakeError::Limit`] before it starts the work.
+//! It bounds the bytes of the text (compressed, decompressed and with entities expanded), nodes,
+//! segments, nesting, pixels of images, and the work of filters.
+//!
+//! Three things remain for the caller:
+//! - A call cannot be cancelled.
+//! - The process ends if the system refuses an allocation.
+//! - The process ends if a stack is too small. SVG may nest 1024 levels deep, which takes a stack
+//!   of 64 MiB on each thread of the rayon pool.
+//!
+//! Bake untrusted input in a separate process with limits of time and memory, and in a rayon pool
+//! with such stacks. `vtex bake` does both.
+//!
+//! # Inside
+//!
+//! Data flows through the folders in this order: `svg` reads the text and walks its tree, `drawing`
+//! holds the result, `geometry` prepares outlines, `coverage` decides how each shape covers the
+//! cells of a grid, `cells` builds the list of each cell, `raster` makes patches and mips.
+//! `pipeline` runs these stages; read it first.
+//!
+//! [`VtexFile`]: vtex_format::VtexFile
+//! [`Provenance::warnings`]: vtex_format::Provenance::warnings
 
 mod cells;
 mod config;

@@ -1,4 +1,4 @@
-//! Conversions between kinds of numbers that the compiler cannot vouch for.
+//! Conversions between number types that can lose digits or range, each with its rule.
 
 /// A number as the file stores it.
 #[expect(clippy::cast_possible_truncation, reason = "stored as f32")]

@@ -1,17 +1,35 @@
-//! Collects what was approximated or left out while the drawing is made.
+//! Collects warnings while the drawing is made: what was approximated or left out.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use vtex_format::{Warning, WarningCode};
 
-/// Warnings in the order of their first report. Shared by reference, because usvg's hooks are
-/// `Fn + Sync`; pushing happens in document order on one thread, so the order is deterministic.
+/// A warning without an area. `element` is an `id` and may be empty.
+pub(crate) fn plain(
+    code: WarningCode,
+    feature: &str,
+    element: &str,
+    message: impl Into<String>,
+) -> Warning {
+    Warning {
+        code,
+        feature: feature.to_owned(),
+        element: element.to_owned(),
+        message: message.into(),
+        area: 0.0,
+    }
+}
+
+/// Warnings, in the order in which each was first reported.
+///
+/// They are shared by reference and locked because usvg's hooks are `Fn + Sync`. All reports come
+/// from one thread, in document order, so their order is the same for every bake.
 #[derive(Debug, Default)]
 pub(crate) struct Warnings(Mutex<Vec<Warning>>);
 
 impl Warnings {
-    /// Adds one warning of no known area; `element` may be empty.
+    /// Adds one warning without an area, see [`plain`].
     pub(crate) fn push(
         &self,
         code: WarningCode,
@@ -19,13 +37,7 @@ impl Warnings {
         element: &str,
         message: impl Into<String>,
     ) {
-        self.add(Warning {
-            code,
-            feature: feature.to_owned(),
-            element: element.to_owned(),
-            message: message.into(),
-            area: 0.0,
-        });
+        self.add(plain(code, feature, element, message));
     }
 
     /// Adds one warning.
@@ -36,7 +48,7 @@ impl Warnings {
             .push(warning);
     }
 
-    /// The list without repetitions; areas of what is said twice add up.
+    /// The list without repetitions. A repeated warning covers the sum of the areas.
     pub(crate) fn into_list(self) -> Vec<Warning> {
         let list = self.0.into_inner().unwrap_or_else(PoisonError::into_inner);
         let mut places = BTreeMap::new();

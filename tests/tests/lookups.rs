@@ -1,4 +1,4 @@
-//! Point lookups, twin and GPU, against the brute-force painter: random places of whole pictures.
+//! Point lookups, twin and GPU, against the brute-force oracle: random places of whole pictures.
 //!
 //! `cargo test` takes 20,000 places of the project's own drawings and of a dozen of the corpus.
 //! With `VTEX_SLOW=1` it takes `VTEX_POINTS` (default 1,000,000) of every solid drawing of the
@@ -13,7 +13,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
-use vtex_baker::{BakeConfig, Resources, bake, oracle::Painter};
+use vtex_baker::{BakeConfig, Resources, bake, oracle::Oracle};
 use vtex_format::VtexFile;
 use vtex_runtime::{BatchQuery, BatchSampler, FilterMode, Gpu, LoadOptions, Trust};
 use vtex_shaders::{PackOptions, cpu, pack};
@@ -33,7 +33,7 @@ const SAME_COLOR: f32 = 2e-4;
 /// What lookups were compared with, and how they fared.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tally {
-    /// Other colour than the painter's, further than [`BAND_UNITS`] from any edge.
+    /// Other colour than the oracle's, further than [`BAND_UNITS`] from any edge.
     wrong: usize,
     /// Other colour, nearer: of the places all over the canvas, and of those at heights of corners.
     near: [usize; 2],
@@ -43,10 +43,10 @@ struct Tally {
     at: [f32; 2],
 }
 
-/// A drawing with its file and its painter.
+/// A drawing with its file and its oracle.
 struct Subject {
     file: VtexFile,
-    painter: Painter,
+    oracle: Oracle,
     expected: Vec<[f32; 4]>,
     places: Vec<[f32; 2]>,
     /// How many of the places are random in both directions; they come first.
@@ -61,12 +61,12 @@ impl Subject {
             ..BakeConfig::default()
         };
         let file = bake(svg, &config, resources).ok()?;
-        let painter = Painter::new(svg, &config, resources, &file).unwrap()?;
-        let places = places(&painter, points);
-        let expected = places.par_iter().map(|&uv| painter.color(uv)).collect();
+        let oracle = Oracle::new(svg, &config, resources, &file).unwrap()?;
+        let places = places(&oracle, points);
+        let expected = places.par_iter().map(|&uv| oracle.color(uv)).collect();
         Some(Self {
             file,
-            painter,
+            oracle,
             expected,
             places,
             random: points,
@@ -85,7 +85,7 @@ impl Subject {
             if same {
                 continue;
             }
-            let distance = self.painter.edge_distance_units(uv, REACH_UNITS);
+            let distance = self.oracle.edge_distance_units(uv, REACH_UNITS);
             tally.wrong += usize::from(distance > BAND_UNITS);
             tally.near[usize::from(index >= self.random)] += usize::from(distance <= BAND_UNITS);
             if distance > tally.far_units {
@@ -125,11 +125,11 @@ fn options() -> LoadOptions {
 
 /// `count` places all over the canvas, and a tenth as many at the height of some corner of an
 /// outline, where comparisons of heights could disagree.
-fn places(painter: &Painter, count: usize) -> Vec<[f32; 2]> {
+fn places(oracle: &Oracle, count: usize) -> Vec<[f32; 2]> {
     let mut random = Random::new(20);
     let mut places: Vec<[f32; 2]> = (0..count).map(|_| [random.unit(), random.unit()]).collect();
     let corners = (0..count / 10).filter_map(|_| {
-        let [_, v] = painter.corner(u64::from(random.bits()))?;
+        let [_, v] = oracle.corner(u64::from(random.bits()))?;
         #[expect(clippy::cast_possible_truncation, reason = "lookups take f32")]
         let v = v as f32;
         Some([random.unit(), v.clamp(0.0, 1.0)])

@@ -10,33 +10,33 @@ use crate::{
     drawing::tree::Tree,
 };
 
-/// What a cell list is made from: one record an item, in painter's order.
+/// What lists are made from. The slices hold one element for each item, in painter's order.
 #[derive(Debug)]
 pub(crate) struct CellInput<'a> {
     /// The items.
     pub(crate) placed: &'a [Placed],
-    /// Where they show; empty for patches.
+    /// Where they show; empty for images.
     pub(crate) covers: &'a [Cover],
-    /// Their paint, or their image for a patch.
+    /// Index of the paint, or of the image for a patch.
     pub(crate) paint_or_image: &'a [u32],
     /// Their ranks.
     pub(crate) packing: &'a Packing,
     /// Layer of each rank.
     pub(crate) layer_of_rank: &'a [u32],
-    /// How items belong together.
+    /// The groups that hold the items.
     pub(crate) tree: &'a Tree,
 }
 
-/// An item that concerns a cell.
+/// An item that shows in a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Present {
     /// Its index.
     pub(super) item: u32,
-    /// Whether the cell lies inside it.
+    /// Whether it covers the whole cell.
     pub(super) full: bool,
 }
 
-/// For every cell the items in it, in painter's order, and whether they cover it whole.
+/// The items of every cell, in painter's order.
 pub(super) fn items_by_cell(input: &CellInput<'_>, lattice: &Lattice) -> Vec<Vec<Present>> {
     let mut by_cell = vec![Vec::new(); lattice.cell_count()];
     for (item, (placed, cover)) in (0_u32..).zip(input.placed.iter().zip(input.covers)) {
@@ -47,6 +47,7 @@ pub(super) fn items_by_cell(input: &CellInput<'_>, lattice: &Lattice) -> Vec<Vec
             for &cell in &cover.cells.full {
                 by_cell[cell as usize].push(Present { item, full: true });
             }
+        // An image lists every cell under its box.
         } else if let Some([columns, rows]) = lattice.cells_in(placed.bounds()) {
             for row in rows[0]..=rows[1] {
                 for column in columns[0]..=columns[1] {

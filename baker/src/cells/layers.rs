@@ -8,7 +8,8 @@ use crate::coverage::placed::Placed;
 /// Layers are the ranks that hold shapes.
 #[derive(Debug)]
 pub(crate) struct Layers {
-    /// Index of the layer of each rank; of a rank without shapes, of the layer that comes next.
+    /// Index of each rank's layer. A rank without shapes gets the layer of the next rank; nothing
+    /// uses that number.
     pub(crate) of_rank: Vec<u32>,
     shape_counts: Vec<u32>,
 }
@@ -39,6 +40,7 @@ impl Layers {
     /// One record a layer; tiles are those of `lists`.
     pub(crate) fn records(&self, lists: &CellLists) -> Vec<LayerRecord> {
         let first_of = |layer: u32| {
+            // Tiles are sorted by layer, so a layer is a range of them.
             let first = lists.tiles.partition_point(|tile| tile.layer < layer);
             u32::try_from(first).unwrap_or(u32::MAX)
         };

@@ -1,29 +1,29 @@
-//! The cells' lists as the file stores them.
+//! The grid's words, lists and what they name, as the file stores them.
 
 use vtex_format::SourceRecord;
 
-/// The grid's words and what they need.
+/// All cells.
 #[derive(Debug, Default)]
 pub(crate) struct CellLists {
-    /// One word a cell: [`CellWord`].
+    /// One word for each cell, see [`vtex_format::CellWord`].
     pub(crate) words: Vec<u32>,
-    /// The lists: [`Entry`].
+    /// The lists, two words for each [`vtex_format::Entry`].
     pub(crate) entries: Vec<u32>,
-    /// Tiles, layer by layer and cell by cell.
+    /// Tiles, sorted by layer, then by cell.
     pub(crate) tiles: Vec<TileDraft>,
     /// Curve records, one after the other.
     pub(crate) curves: Vec<u32>,
-    /// What each of them is cut from; outlines are items here.
+    /// The outlines that each record is cut from. They are named by item here.
     pub(crate) sources: Vec<SourceRecord>,
 }
 
-/// A tile that some cell lists.
+/// A tile that some list names.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct TileDraft {
     /// Index of its layer.
     pub(crate) layer: u32,
     /// Index of its cell.
     pub(crate) cell: u32,
-    /// Items in it, in painter's order.
+    /// The items that it holds, in painter's order.
     pub(crate) items: Vec<u32>,
 }

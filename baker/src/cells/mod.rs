@@ -1,4 +1,7 @@
-//! The cell grid: for each cell what shows in it, front to back.
+//! The cells of the grid: for each a list of what shows in it, front to back.
+//!
+//! Items are packed into ranks first ([`packing`]), then each cell drafts its list ([`draft`]). The
+//! tiles and curve records that lists name come last.
 
 mod draft;
 mod input;
@@ -6,7 +9,7 @@ pub(crate) mod layers;
 mod lists;
 pub(crate) mod packing;
 pub(crate) mod paint_table;
-pub(crate) mod sources;
+pub(crate) mod stored_outlines;
 #[cfg(test)]
 mod tests;
 pub(crate) mod tiles;

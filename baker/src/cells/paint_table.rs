@@ -1,4 +1,4 @@
-//! Paints, each stored once, in order of first use.
+//! The file's paints: each stored once, in order of first use.
 
 use std::collections::BTreeMap;
 
@@ -9,14 +9,14 @@ use crate::{
     drawing::Paint,
 };
 
-/// Paints by the bits of what they are.
+/// The paints so far, found again by their bits: equal bits are the same paint.
 #[derive(Debug, Default)]
 pub(crate) struct PaintTable {
     paints: Vec<PaintRecord>,
-    /// Of gradients, paint by paint.
+    /// The numbers of gradients, paint by paint.
     numbers: Vec<f32>,
     solids: BTreeMap<[u32; 4], u32>,
-    /// By kind, flags and numbers.
+    /// Found by kind, flags and numbers.
     gradients: BTreeMap<Vec<u32>, u32>,
 }
 
@@ -30,7 +30,7 @@ impl PaintTable {
     }
 
     fn intern_solid(&mut self, color: [f32; 4]) -> u32 {
-        // Adding zero turns -0 into 0.
+        // Adding zero turns -0 into 0, which has other bits but is the same colour.
         let color = color.map(|v| v.clamp(0.0, 1.0) + 0.0);
         let next = self.next();
         let index = *self.solids.entry(color.map(f32::to_bits)).or_insert(next);
@@ -43,6 +43,7 @@ impl PaintTable {
     fn intern_gradient(&mut self, gradient: &Gradient) -> u32 {
         let mut own = Vec::new();
         let record = gradient.store(&mut own);
+        // Stored twice: first apart, for its bits, then behind all others if it is new.
         let head = [record.kind, record.flags];
         // Adding zero turns -0 into 0.
         let bits = own.iter().map(|number| (number + 0.0).to_bits());
@@ -59,30 +60,30 @@ impl PaintTable {
         u32::try_from(self.paints.len()).unwrap_or(u32::MAX)
     }
 
-    /// Index of what paint `front` over paint `back` looks like; `None` unless both are solid.
+    /// Index of the solid paint that `front` over `back` looks like; `None` unless both are solid.
     pub(crate) fn intern_over(&mut self, front: u32, back: u32) -> Option<u32> {
         let (front, back) = (self.color(front)?, self.color(back)?);
         Some(self.intern_solid(over(front, back)))
     }
 
-    /// The paint with its alpha multiplied; `None` where it is no single colour.
+    /// Index of the paint with its alpha multiplied by `opacity`; `None` unless it is solid.
     pub(crate) fn intern_faded(&mut self, index: u32, opacity: f32) -> Option<u32> {
         let [r, g, b, a] = self.color(index)?;
         Some(self.intern_solid([r, g, b, a * opacity]))
     }
 
-    /// Whether nothing shows behind.
+    /// Whether nothing behind it shows.
     pub(crate) fn is_opaque(&self, index: u32) -> bool {
         self.paints[index as usize].is_opaque()
     }
 
-    /// The colour of a paint that has one, straight alpha, sRGB-encoded.
+    /// The colour of a solid paint: straight alpha, sRGB-encoded.
     pub(crate) fn color(&self, index: u32) -> Option<[f32; 4]> {
         let paint = &self.paints[index as usize];
         (!paint.is_gradient()).then_some(paint.color)
     }
 
-    /// All paints, and the numbers of gradients.
+    /// All paints, and the numbers that gradients refer to.
     pub(crate) fn into_records(self) -> (Vec<PaintRecord>, Vec<f32>) {
         (self.paints, self.numbers)
     }
@@ -107,7 +108,7 @@ pub(crate) fn number_paints(
         .collect()
 }
 
-/// Source-over of straight-alpha colours, on the encoded values.
+/// Source-over of straight-alpha colours, on the sRGB-encoded values as SVG wants.
 fn over(front: [f32; 4], back: [f32; 4]) -> [f32; 4] {
     let shown = back[3] * (1.0 - front[3]);
     let alpha = front[3] + shown;

@@ -1,4 +1,4 @@
-//! The lists against the painter: what a cell names must be what shows there.
+//! Lists against exact windings: what a list names must be what shows in the cell.
 
 #![expect(clippy::print_stdout, reason = "names the drawings left out")]
 
@@ -77,7 +77,7 @@ fn compare_lists(drawing: &Drawing, file: &VtexFile, config: &BakeConfig, points
             canvas.x0 + uv[0] * canvas.width(),
             canvas.y0 + uv[1] * canvas.height(),
         );
-        // A lookup in f32 may fall on the other side of an edge or a lattice line this near.
+        // An f32 lookup this near to an edge or a lattice line may fall on the other side.
         let near = Rect::from_center_size(p, (1e-3, 1e-3));
         if near_an_edge(&placed, near) {
             continue;
@@ -138,7 +138,7 @@ fn tile_contains(file: &VtexFile, placed: &[Placed], tile: u32, paint: u32, p: P
 }
 
 #[test]
-fn lists_show_what_the_painter_paints() {
+fn lists_show_the_exact_picture() {
     for (seed, msdf_size) in (0..).zip([64, 200, 512, 64, 200, 512]) {
         let config = BakeConfig {
             msdf_size,
@@ -152,7 +152,7 @@ fn lists_show_what_the_painter_paints() {
 }
 
 #[test]
-fn tiger_lists_show_what_the_painter_paints() {
+fn tiger_lists_show_the_exact_picture() {
     let Some(corpus) = Corpus::find("lists of the tiger") else {
         return;
     };
@@ -165,7 +165,7 @@ fn tiger_lists_show_what_the_painter_paints() {
     assert!(tally.compared > 29_000, "{tally:?}");
 }
 
-/// Every texel of every tile: its median's side is its lattice point's side.
+/// In every texel of every tile the sign of the median is that of the lattice point.
 #[test]
 fn texels_are_inside_exactly_where_the_winding_says() {
     let config = BakeConfig {
@@ -373,7 +373,7 @@ fn odd_outlines_do_no_harm() {
     );
 }
 
-/// Solid files of the corpus: each bakes to a valid file whose lists show what the painter paints.
+/// Drawings of the corpus with solid paints: each bakes to a valid file with correct lists.
 #[test]
 fn corpus_files_are_listed_right() {
     let Some(corpus) = Corpus::find("lists of real drawings") else {

@@ -8,8 +8,8 @@ use crate::{
     error::BakeError,
 };
 
-/// Bytes of MSDF tiles in a file; beyond, a smaller lattice serves better and most GPUs refuse
-/// the buffer.
+/// Bytes of MSDF tiles in a file. Beyond it most GPUs refuse the buffer, and a smaller lattice
+/// would serve better.
 const MAX_TILE_BYTES: usize = 1 << 30;
 
 /// The texels of `tiles`, one tile after the other.

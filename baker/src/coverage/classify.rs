@@ -1,4 +1,4 @@
-//! Which cells a shape's edge is near, and which lie inside it.
+//! Which cells are near an edge of a shape, and which lie inside it: for MSDFs and clips.
 
 use std::collections::BTreeSet;
 
@@ -14,22 +14,22 @@ use crate::{
     geometry::{Region, clip_line, flatten, line_box_distance, pieces},
 };
 
-/// How far flattening may move an outline when cells are listed, in steps. Below what
-/// [`EDGE_ERROR_TEXELS`] adds to the margin.
+/// How far flattening may move an outline when cells are listed, in steps. Less than
+/// [`EDGE_ERROR_TEXELS`], which the margin is widened by.
 const LISTING_TOLERANCE: f64 = 0.02;
 
-/// A shape against the grid. Cells are indices, row by row.
+/// A shape on the grid. Cells are indices, row by row.
 #[derive(Debug, Default)]
 pub(crate) struct ShapeCells {
-    /// The shape's coloured edges.
+    /// Its coloured edges.
     pub(crate) edges: Vec<Edge>,
-    /// Cell and index of an edge within [`Distances::reach`] of it, sorted.
+    /// Pairs of a cell and the index of an edge within [`Distances::reach`] of it, sorted.
     near: Vec<(u32, u32)>,
     /// Cells with an edge within [`Distances::margin`], ascending.
     pub(crate) listed: Vec<u32>,
-    /// Cells that, widened by the margin, lie inside, ascending.
+    /// Cells that lie inside even when widened by the margin, ascending.
     pub(crate) full: Vec<u32>,
-    /// Inside tests on the lattice.
+    /// Inside tests at the points of the lattice.
     pub(crate) rows: Rows,
 }
 
@@ -77,6 +77,7 @@ pub(crate) fn classify(placed: &Placed, lattice: &Lattice, distances: Distances)
         edges: edges_of(&placed.outline),
         ..ShapeCells::default()
     };
+    // Cells further away than the margin cannot list the shape.
     let widened = placed.bounds().inflate(distances.margin, distances.margin);
     let Some([columns, rows]) = lattice.cells_in(widened) else {
         return ShapeCells::default();
@@ -84,6 +85,7 @@ pub(crate) fn classify(placed: &Placed, lattice: &Lattice, distances: Distances)
     bin_edges(&mut cells, &placed.outline, lattice, distances);
     let n = lattice.grid.texels_per_cell;
     cells.rows = Rows::new(&placed.region, rows[0] * n, (rows[1] + 1) * n);
+    // Both lists of cells are ascending: walk them together.
     let mut listed = cells.listed.iter().copied().peekable();
     for row in rows[0]..=rows[1] {
         for column in columns[0]..=columns[1] {
@@ -92,7 +94,7 @@ pub(crate) fn classify(placed: &Placed, lattice: &Lattice, distances: Distances)
             if listed.peek() == Some(&cell) {
                 continue;
             }
-            // No edge is near, so any point speaks for the cell.
+            // No edge is near, so any one point decides for the whole cell.
             let [x, y] = [column, row].map(|index| index * n + n / 2);
             if cells.rows.contains(&placed.region, x, y) {
                 cells.full.push(cell);
@@ -102,9 +104,12 @@ pub(crate) fn classify(placed: &Placed, lattice: &Lattice, distances: Distances)
     cells
 }
 
-/// Finds the cells near the outline, to the last sliver, and the cells near the edges that
-/// distances are measured to.
+/// Finds the cells near the outline, and those near the coloured edges.
+///
+/// The two differ: colouring drops slivers, which distances cannot resolve, but a cell must list
+/// the shape for them all the same.
 fn bin_edges(cells: &mut ShapeCells, outline: &BezPath, lattice: &Lattice, distances: Distances) {
+    // Evaluators see the outline; distances are measured to edges that may lie this much beside it.
     let margin = distances.margin + EDGE_ERROR_TEXELS;
     let mut listed = BTreeSet::new();
     for contour in flatten(outline, LISTING_TOLERANCE) {
@@ -116,6 +121,8 @@ fn bin_edges(cells: &mut ShapeCells, outline: &BezPath, lattice: &Lattice, dista
     let mut near = BTreeSet::new();
     for (index, edge) in (0_u32..).zip(&cells.edges) {
         for line in edge.lines() {
+            // At least the margin, so that a listed cell never lacks the edge that it is listed
+            // for.
             let found = cells_near(line, lattice, distances.reach.max(margin));
             near.extend(found.into_iter().map(|cell| (cell, index)));
         }
@@ -126,11 +133,13 @@ fn bin_edges(cells: &mut ShapeCells, outline: &BezPath, lattice: &Lattice, dista
 
 /// Cells within `reach` of `line`.
 fn cells_near(line: Line, lattice: &Lattice, reach: f64) -> Vec<u32> {
+    // A line far beside the canvas would be cut into as many pieces as it has cells of length.
     let beyond = reach + 2.0 * lattice.cell_steps();
     let mut near = Vec::new();
     let Some(line) = clip_line(line, lattice.canvas.inflate(beyond, beyond)) else {
         return near;
     };
+    // Short pieces, because the cells of a long diagonal line's box are mostly far from the line.
     for piece in pieces(line, lattice.cell_steps()) {
         let area = Rect::from_points(piece.p0, piece.p1).inflate(reach, reach);
         let Some([columns, rows]) = lattice.cells_in(area) else {

@@ -1,43 +1,48 @@
-//! What each item is to the cells, by its kind of coverage.
+//! What each item is to the cells of the grid, by its kind of coverage.
 
 use kurbo::Affine;
 use rayon::prelude::*;
 use vtex_format::{CurveLattice, SourceOutline, cut::CellCurves};
 
-use crate::coverage::{
-    classify::{ShapeCells, classify},
-    curve_lattice::{curve_lattice, flatness_units},
-    curves::{
-        CurveError,
-        lower::LoweredOutline,
-        record::encode_record,
-        source::source_outline,
-        split::split,
-        sweep::{CutParams, cut_to_cells},
+use crate::{
+    coverage::{
+        classify::{ShapeCells, classify},
+        curve_lattice::{curve_lattice, flatness_units},
+        curves::{
+            CurveError,
+            lower::LoweredOutline,
+            record::encode_record,
+            split::split,
+            stored_outline::stored_outline,
+            sweep::{CutParams, cut_to_cells},
+        },
+        grid::Lattice,
+        placed::{Placed, PlacedKind},
+        scales::Scales,
     },
-    grid::Lattice,
-    placed::{Placed, PlacedKind},
-    scales::Scales,
+    drawing::FillRule,
 };
 
-/// Segments of one shape in one cell; more would leave no room in the cell's list.
+/// Segments of one shape in one cell. A shape with more would leave no room for others in the
+/// cell's list, which evaluators bound.
 const MAX_CELL_SEGMENTS: usize = vtex_format::MAX_LIST_ITEMS as usize * 3 / 4;
 
-/// An item against the grid.
+/// Where an item shows on the grid.
 #[derive(Debug, Default)]
 pub(crate) struct Cover {
-    /// Where it is listed; without edges for tiles unless it has a distance field.
+    /// The cells that list it. It has edges for tiles only if it is an MSDF.
     pub(crate) cells: ShapeCells,
-    /// Its outline in the cells that list it, cell by cell, if it is curves.
+    /// If it is curves, its outline in each cell that lists it, cell by cell.
     pub(crate) curves: Vec<CellCurves>,
-    /// The whole outline as the file stores it, if it is curves and the lattice holds it.
+    /// If it is curves, the whole outline as the file stores it; `None` where a reader could not
+    /// cut it to the same records.
     pub(crate) source: Option<SourceOutline>,
-    /// Where each listed cell's part of `curves` begins; empty where each has one.
+    /// Index into `curves` of each listed cell's first part; empty when each cell has exactly one.
     firsts: Vec<u32>,
 }
 
 impl Cover {
-    /// Of what covers the whole canvas.
+    /// The cover of what fills the whole canvas.
     pub(crate) fn everywhere(lattice: &Lattice) -> Self {
         let count = u32::try_from(lattice.cell_count()).unwrap_or(u32::MAX);
         let mut cover = Self::default();
@@ -45,11 +50,12 @@ impl Cover {
         cover
     }
 
-    /// Its outline in `cell`: strips that add up to it, most often one. Empty unless it is curves.
+    /// Its outline in `cell`: one part, or strips that add up to it. Empty unless it is curves.
     pub(crate) fn curves_in(&self, cell: u32) -> &[CellCurves] {
         let Ok(index) = self.cells.listed.binary_search(&cell) else {
             return &[];
         };
+        // Without `firsts` every cell has one part, so the index of the cell is that of the part.
         let first_of = |index: usize| match self.firsts.get(index) {
             Some(&first) => first as usize,
             None if self.firsts.is_empty() => index,
@@ -60,12 +66,13 @@ impl Cover {
     }
 }
 
-/// Covers every item; an error where a shape cannot be curves.
+/// The cover of every item, or why a shape cannot be curves on this grid.
 pub(crate) fn cover(
     placed: &[Placed],
     lattice: &Lattice,
     scales: &Scales,
 ) -> Vec<Result<Cover, CurveError>> {
+    // There is no cutter if nothing is curves.
     let cutter = curve_lattice(placed, lattice, scales)
         .map(|curve_lattice| Cutter::new(lattice, curve_lattice, scales));
     let cover_one = |placed: &Placed| {
@@ -107,42 +114,37 @@ impl Cutter {
     }
 
     fn cut(&self, placed: &Placed) -> Result<Cover, CurveError> {
+        // Both lattices have their origin at the corner of cell (0, 0).
         let outline = self.units_from_steps * &placed.outline;
         let lowered = LoweredOutline::new(&outline, self.params.flatness_units)?;
         let shape = cut_to_cells(&lowered, &self.params);
-        let source = source_outline(&lowered, placed.rule);
+        let source = stored_outline(&lowered, placed.rule);
         let mut cells = ShapeCells::default();
-        for (cell, winding) in shape.covered {
-            if placed.rule.fills(winding) {
-                cells.full.push(cell);
-            }
-        }
+        // A cell without an edge in its box has one winding: inside or not.
+        let filled = shape.covered.into_iter();
+        let filled = filled.filter(|&(_, winding)| placed.rule.fills(winding));
+        cells.full = filled.map(|(cell, _)| cell).collect();
         let mut curves = Vec::with_capacity(shape.edges.len());
         let mut firsts = Vec::new();
-        // Strips of a cell are not what the reader would cut.
+        // A reader cuts the stored outline to whole cells, never to strips: with a strip the file
+        // must hold the records themselves.
         let mut whole = true;
-        let size = f64::from(self.params.lattice.box_units());
         for (cell, cell_curves) in shape.edges {
             firsts.push(u32::try_from(curves.len()).map_err(|_| CurveError::Overflow)?);
-            let segments = cell_curves.segments.len();
-            let parts = match encode_record(&[&cell_curves], placed.rule) {
-                Ok(_) => vec![cell_curves],
-                Err(_) => {
-                    whole = false;
-                    split(cell_curves, placed.rule, size)?
-                }
-            };
-            // A list has room for one such shape.
-            if segments > MAX_CELL_SEGMENTS {
+            cells.listed.push(cell);
+            // Strips hold all segments of the cell again, so they do not help here.
+            if cell_curves.segments.len() > MAX_CELL_SEGMENTS {
                 return Err(CurveError::Overflow);
             }
-            for part in &parts {
-                encode_record(&[part], placed.rule)?;
+            if encode_record(&[&cell_curves], placed.rule).is_ok() {
+                curves.push(cell_curves);
+            } else {
+                whole = false;
+                curves.extend(self.strips(cell_curves, placed.rule)?);
             }
-            cells.listed.push(cell);
-            curves.extend(parts);
         }
         let source = source.filter(|_| whole);
+        // The usual case needs no table.
         if curves.len() == cells.listed.len() {
             firsts = Vec::new();
         }
@@ -152,5 +154,14 @@ impl Cutter {
             source,
             firsts,
         })
+    }
+    /// The parts of a cell that is too much for one record. Each fits a record of its own.
+    fn strips(&self, cell: CellCurves, rule: FillRule) -> Result<Vec<CellCurves>, CurveError> {
+        let size = f64::from(self.params.lattice.box_units());
+        let parts = split(cell, rule, size)?;
+        for part in &parts {
+            encode_record(&[part], rule)?;
+        }
+        Ok(parts)
     }
 }

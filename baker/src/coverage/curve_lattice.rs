@@ -1,4 +1,4 @@
-//! The lattice of curve records: how fine their integers are on the cells' lattice.
+//! The curve lattice: how fine the integers of curve records are.
 
 use vtex_format::CurveLattice;
 
@@ -7,17 +7,18 @@ use crate::{
     number::{count, floor_index, to_f32},
 };
 
-/// How far lowering may move a curve, and making lines of flat ones, in pixels at maximum zoom.
+/// How far lowering may move a curve, and turning a flat curve into a line, in pixels at the
+/// largest zoom.
 const TOLERANCE_PX: f64 = 0.05;
-/// Width of a unit of curve records in pixels at maximum zoom, unless records cannot be that fine.
-/// A point is off by half a unit.
+/// Width of a unit in pixels at the largest zoom, unless records cannot be that fine. Rounding
+/// moves a point by half a unit at most along each axis.
 pub(crate) const UNIT_PX: f64 = 0.04;
-/// Units along a cell at least, so that rounding never shows at low zooms either.
+/// Least units along a cell, so that rounding does not show when `max_zoom` is small either.
 const MIN_UNITS_PER_CELL: usize = 1024;
-/// No tolerance is smaller: a unit is what rounding costs.
+/// Smallest tolerance in units: rounding alone costs as much.
 const MIN_TOLERANCE_UNITS: f64 = 0.5;
 
-/// The lattice of curve records on `lattice`, or `None` where nothing needs one.
+/// The curve lattice for items on `lattice`; `None` when nothing becomes curves.
 pub(crate) fn curve_lattice(
     placed: &[Placed],
     lattice: &Lattice,
@@ -26,10 +27,12 @@ pub(crate) fn curve_lattice(
     if !placed.iter().any(Placed::is_curves) {
         return None;
     }
-    // Wider ramps than a cell are cut off; mips serve such footprints unless they are tiny.
+    // The margin of a record is at most one cell, so wider ramps are cut off. Mips answer lookups
+    // with such ramps, unless mip 0 is tiny.
     let margin_cells = (scales.distances.margin / lattice.cell_steps()).min(1.0);
     let finest = CurveLattice::new(to_f32(margin_cells))?;
-    // Finer than what anyone sees costs bytes: the low bits of coordinates are noise.
+    // Finer units than anyone can see cost bytes: the low bits of coordinates are noise, which does
+    // not compress.
     let cells = lattice.longer_steps() / lattice.cell_steps();
     let wanted = scales.longer_side_px / (UNIT_PX * cells);
     if wanted >= f64::from(finest.units_per_cell) {
@@ -43,9 +46,10 @@ pub(crate) fn curve_lattice(
     })
 }
 
-/// Within how many units of its chord a quadratic may stay to become a line, and a quadratic of the
-/// cubic it stands for. A number that a file holds exactly. `longer_side_px` is the canvas' longer
-/// side at the largest zoom.
+/// Tolerance of lowering and cutting in units: how far a quadratic may be from the cubic it
+/// replaces, and a line from the quadratic it replaces. An f32, because the file holds it and
+/// readers must cut with the same number. `longer_side_px` is the canvas' longer side at the
+/// largest zoom.
 pub(crate) fn flatness_units(
     lattice: &Lattice,
     curve_lattice: CurveLattice,

@@ -1,30 +1,32 @@
-//! The cell grid and the lattice of MSDF texels: which numbers, and how the canvas lies on them.
+//! The grid of cells and the lattice of MSDF texels: their sizes, and how the canvas lies on them.
 
 use kurbo::{Affine, Rect};
 use vtex_format::{Grid, MAX_TEXELS_PER_CELL};
 
 use crate::number::{floor_index, to_f32};
 
-/// Texels along a cell unless the grid would leave [`MIN_CELLS`]..=[`MAX_CELLS`]. Measured on the
-/// Tiger at 1024 texels for 4, 6 and 8: 970, 905 and 889 KiB stored, 4.1, 4.3 and 4.8 MiB raw,
-/// 0.86, 1.10 and 1.33 entries a sample.
+/// Texels along a cell, unless the grid would then leave [`MIN_CELLS`]..=[`MAX_CELLS`]. Small cells
+/// mean short lists but many tiles. Measured on the Tiger at 1024 texels for 4, 6 and 8: 970, 905
+/// and 889 KiB stored, 4.1, 4.3 and 4.8 MiB raw, 0.86, 1.10 and 1.33 entries for each lookup.
 const TEXELS_PER_CELL: u32 = 6;
 /// Cells along the longer side of the smallest grid.
 const MIN_CELLS: u32 = 16;
 /// Cells along the longer side of the largest grid: 1 MiB of cell words when square.
 const MAX_CELLS: u32 = 512;
-/// Cells along the longer side of the grid when all shapes are curves. Measured on the Tiger for
-/// 48, 64, 96 and 128: 480, 523, 621 and 716 KiB of records, 4.6, 4.1, 3.6 and 3.3 entries a list.
+/// Cells along the longer side of the grid when all shapes are curves. Few, because readers divide
+/// cells again when they load a file. Measured on the Tiger for 48, 64, 96 and 128: 480, 523, 621
+/// and 716 KiB of records, 4.6, 4.1, 3.6 and 3.3 entries in a list.
 const CURVE_CELLS: u32 = 64;
-/// Where the canvas' corner lies in the first cell. An irrational-looking fraction keeps edges at
-/// round coordinates off the lattice lines, where they would lie in two rows of cells.
+/// Where the canvas' corner lies in the first cell. Drawings like round coordinates. An edge on a
+/// line of the grid would belong to the cells on both sides; with these fractions, which are far
+/// from any simple ratio, such an edge hardly ever lies on one.
 const LATTICE_OFFSET: [f32; 2] = [0.381_966, 0.276_393_2];
 
-/// The lattice of MSDF texel corners. Its unit is one step; a cell is
-/// `texels_per_cell` steps wide. The plane's origin is the corner of cell (0, 0).
+/// The MSDF lattice: its points are the places of stored texels. Its unit is one step, its origin
+/// is the corner of cell (0, 0), and a cell is `texels_per_cell` steps wide.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lattice {
-    /// As stored.
+    /// The grid as the file stores it.
     pub(crate) grid: Grid,
     /// Canvas space to lattice.
     pub(crate) lattice_from_canvas: Affine,
@@ -33,7 +35,8 @@ pub(crate) struct Lattice {
 }
 
 impl Lattice {
-    /// Cells are square in user units, [`TEXELS_PER_CELL`] of `msdf_size` texels wide.
+    /// The lattice with `msdf_size` texels along the canvas' longer side. Cells are square in user
+    /// units and [`TEXELS_PER_CELL`] texels wide where that is possible.
     pub(crate) fn new(canvas_size: [f64; 2], msdf_size: u32) -> Self {
         let cells = msdf_size
             .div_ceil(TEXELS_PER_CELL)
@@ -41,17 +44,19 @@ impl Lattice {
         Self::with_cells(canvas_size, msdf_size, cells)
     }
 
-    /// The grid of a drawing whose shapes are all curves. `msdf_size` is then no more than the unit
-    /// of distances.
+    /// The lattice of a drawing whose shapes are all curves. There are no texels then: `msdf_size`
+    /// only sets the length of a step.
     pub(crate) fn for_curves(canvas_size: [f64; 2], msdf_size: u32, mip0_size: u32) -> Self {
-        // Boxes reach one cell beyond their cells at most, and a ramp half a texel of mip 0.
+        // A record has a margin of at most one cell, which must hold a ramp of half a texel of mip
+        // 0: so cells are no smaller than those texels.
         let cells = CURVE_CELLS.min(mip0_size.max(1));
         Self::with_cells(canvas_size, msdf_size, cells)
     }
 
-    /// The same with cells of half the side, or `None` when they are as small as can be.
+    /// The lattice with cells of half the side, or `None` when cells cannot be smaller.
     pub(crate) fn halved(&self, canvas_size: [f64; 2], mip0_size: u32) -> Option<Self> {
         let [columns, rows] = self.grid.cell_from_uv_scale;
+        // The longer side has a whole number of cells, so the larger scale is that number.
         let cells = 2 * floor_u32(columns.max(rows));
         let unit = self.grid.texels_per_cell.div_ceil(2);
         (cells <= MAX_CELLS.min(mip0_size))
@@ -60,9 +65,12 @@ impl Lattice {
 
     fn with_cells(canvas_size: [f64; 2], msdf_size: u32, cells: u32) -> Self {
         let texels_per_cell = msdf_size.div_ceil(cells).clamp(1, MAX_TEXELS_PER_CELL);
+        // The longer side has `cells` cells, the other as many as its length asks for, also a
+        // fraction.
         let longer = canvas_size[0].max(canvas_size[1]);
         let scale = canvas_size.map(|side| to_f32(side / longer * f64::from(cells)));
-        // Exactly the evaluator's arithmetic at uv = 1, the largest it asks for.
+        // The evaluator's own f32 arithmetic at uv = 1, the largest uv that it looks up: one cell
+        // too few here would send it beyond the grid.
         let size_cells = [0, 1].map(|axis| to_cells((scale[axis] + LATTICE_OFFSET[axis]).floor()));
         let grid = Grid {
             size_cells,
@@ -94,7 +102,7 @@ impl Lattice {
         }
     }
 
-    /// Cell side in steps.
+    /// Side of a cell in steps.
     pub(crate) fn cell_steps(&self) -> f64 {
         f64::from(self.grid.texels_per_cell)
     }
@@ -109,10 +117,11 @@ impl Lattice {
         self.grid.size_cells[0] as usize * self.grid.size_cells[1] as usize
     }
 
-    /// Columns `[first, last]` and rows `[first, last]` of the cells that `area`, in steps, meets;
-    /// `None` when it lies beside the grid.
+    /// Columns `[first, last]` and rows `[first, last]` of the cells that `area` meets; `None` when
+    /// it lies beside the grid. `area` is in steps.
     pub(crate) fn cells_in(&self, area: Rect) -> Option<[[u32; 2]; 2]> {
         let n = self.cell_steps();
+        // Half open: an area that ends before 0 or begins at the end of the grid does not meet it.
         let axis = |low: f64, high: f64, size: u32| {
             let end = f64::from(size);
             let (low, high) = (low / n, high / n);
@@ -124,7 +133,7 @@ impl Lattice {
         Some([columns, rows])
     }
 
-    /// Box of a cell in steps.
+    /// The square of a cell in steps.
     pub(crate) fn cell_rect(&self, column: u32, row: u32) -> Rect {
         let n = self.cell_steps();
         let (x, y) = (f64::from(column) * n, f64::from(row) * n);

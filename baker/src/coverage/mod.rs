@@ -1,4 +1,8 @@
-//! What of each cell an item covers, and by which kind of coverage.
+//! How each item covers the cells of a grid, and by which kind of coverage.
+//!
+//! [`judge`] gives each shape a verdict: MSDF or curves. [`placed`] puts the items on the grid of
+//! [`grid`], and [`cover`] finds the cells that each of them meets or fills: for an MSDF by
+//! [`classify`], for curves by cutting ([`curves`]). [`msdf`] renders the tiles of MSDFs.
 
 pub(crate) mod classify;
 pub(crate) mod cover;

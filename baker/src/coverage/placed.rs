@@ -1,4 +1,4 @@
-//! What is drawn, placed on the lattice of MSDF texels.
+//! Items placed on the MSDF lattice.
 
 use kurbo::{BezPath, Rect, Shape as _};
 use rayon::prelude::*;
@@ -16,34 +16,34 @@ use crate::{
     number::floor_index,
 };
 
-/// One item in lattice steps. Its index is its place in the painter's order.
+/// One item in lattice steps. Its index in a list is its place in painter's order.
 #[derive(Clone, Debug)]
 pub(crate) struct Placed {
     /// Closed contours.
     pub(crate) outline: BezPath,
-    /// Inside test of the outline.
+    /// Answers inside tests of the outline.
     pub(crate) region: Region,
-    /// How the outline decides inside.
+    /// Its fill rule.
     pub(crate) rule: FillRule,
-    /// Shape or patch.
+    /// What kind of item it is.
     pub(crate) kind: PlacedKind,
 }
 
-/// What covers a [`Placed`] outline.
+/// What a placed item is.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PlacedKind {
-    /// A paint.
+    /// A shape.
     Shape {
-        /// The paint, in canvas space.
+        /// Its paint, gradients in uv.
         paint: Paint,
         /// What preparation did.
         note: Note,
         /// What it becomes.
         verdict: Verdict,
     },
-    /// A raster image in a rectangle.
+    /// A raster image; the outline is its rectangle.
     Patch,
-    /// An outline that groups are clipped to.
+    /// An outline that clips a group.
     Clip,
 }
 
@@ -58,12 +58,12 @@ impl Placed {
         }
     }
 
-    /// Whether it is geometry that shows.
+    /// Whether it is a shape.
     pub(crate) fn is_shape(&self) -> bool {
         matches!(self.kind, PlacedKind::Shape { .. })
     }
 
-    /// Whether it is to be curve records.
+    /// Whether it becomes curve records. Clip outlines always do: a test needs a sharp inside.
     pub(crate) fn is_curves(&self) -> bool {
         match &self.kind {
             PlacedKind::Shape { verdict, .. } => verdict.coverage == Coverage::Curves,
@@ -79,7 +79,7 @@ impl Placed {
         u32::try_from(floor_index(size)).unwrap_or(u32::MAX)
     }
 
-    /// Box in steps.
+    /// Box of the control points, in steps.
     pub(crate) fn bounds(&self) -> Rect {
         self.region.bounds()
     }
@@ -94,7 +94,7 @@ pub(crate) fn place(drawing: &Drawing, lattice: &Lattice, verdicts: &[Verdict]) 
         .collect()
 }
 
-/// A prepared outline by itself, for judging.
+/// A prepared outline alone, for judging.
 pub(crate) fn place_prepared(prepared: &Prepared, lattice: &Lattice) -> Placed {
     let kind = PlacedKind::Shape {
         paint: Paint::BLACK,
@@ -116,8 +116,8 @@ pub(crate) fn place_item(
         Item::Shape(shape) => {
             let prepared = match verdict.coverage {
                 Coverage::Msdf => prepare(shape, canvas_longer),
-                // Windings take care of overlaps, and an edge that two shapes share must stay
-                // the same in both.
+                // Windings need no preparation. It would even do harm: an edge that two shapes
+                // share must stay the same in both, or a seam shows.
                 Coverage::Curves => Prepared {
                     outline: clean(&shape.outline, canvas_longer),
                     rule: shape.fill_rule,
@@ -137,6 +137,7 @@ pub(crate) fn place_item(
             Placed::new(outline, clip.rule, PlacedKind::Clip)
         }
         Item::Patch(patch) => {
+            // The tolerance has no meaning for a rectangle.
             let outline = lattice.lattice_from_canvas * patch.rect.to_path(0.1);
             Placed::new(outline, FillRule::NonZero, PlacedKind::Patch)
         }

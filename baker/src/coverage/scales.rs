@@ -1,28 +1,34 @@
-//! Distances of a bake: what a step, a texel of mip 0 and a pixel are to each other.
+//! The distances of a bake: how far an edge reaches, and how many pixels a step is.
+//!
+//! A lookup with a footprint sees an edge from some distance. Up to a footprint of one texel of mip
+//! 0 it is answered by cells, and the coverage of an edge then falls from 1 to 0 over a *ramp*
+//! around it. A cell must list every shape whose ramp reaches into it.
 
 use crate::{config::BakeConfig, coverage::grid::Lattice, number::to_f32};
 
-/// Steps beyond half the range within which an edge still takes part in a tile: bilinear lookups
-/// near an edge mix texels that lie up to a diagonal further off.
+/// Steps beyond half the range within which an edge still takes part in a tile. A bilinear lookup
+/// mixes four texels, which lie up to a diagonal (1.42 steps) further from the edge than the
+/// lookup.
 const REACH_BEYOND_RANGE: f64 = 1.5;
-/// Steps by which evaluators' f32 arithmetic may misplace a lookup, with room to spare.
+/// Steps by which f32 arithmetic may misplace a lookup in an evaluator, with room to spare.
 const ROUNDING_MARGIN: f64 = 0.01;
 
 /// Distances in lattice steps at which an edge concerns a cell.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Distances {
-    /// Within it some filter mode sees partial coverage: the cell lists the shape.
+    /// A cell lists a shape if an edge is within this distance of it: some filter mode then sees
+    /// partial coverage there.
     pub(crate) margin: f64,
-    /// Within it the edge takes part in the cell's tile.
+    /// An edge takes part in the tile of a cell if it is within this distance.
     pub(crate) reach: f64,
 }
 
 /// Distances of this bake, in steps of its lattice.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scales {
-    /// Full width of the stored distances.
+    /// Full width of the distances that a texel stores.
     pub(crate) range: f64,
-    /// At which edges concern cells.
+    /// Distances at which an edge concerns a cell.
     pub(crate) distances: Distances,
     /// Pixels along the canvas' longer side at the largest zoom.
     pub(crate) longer_side_px: f64,
@@ -31,9 +37,10 @@ pub(crate) struct Scales {
 impl Scales {
     /// The distances of a bake on `lattice`.
     pub(crate) fn new(config: &BakeConfig, lattice: &Lattice) -> Self {
-        // Cells serve footprints up to a texel of mip 0; the ramp reaches half of one outwards.
+        // Half the largest footprint that cells answer.
         let ramp = 0.5 * lattice.longer_steps() / f64::from(config.mip0_size.max(1));
         let outline = f64::from(config.outline_texels.unwrap_or(0.0));
+        // Half the range must hold the ramp and the distance outline: beyond it texels are clamped.
         let needed = 2.0 * (outline + ramp + ROUNDING_MARGIN);
         let range = f64::from(to_f32(needed.max(f64::from(config.distance_range_texels))));
         let smoothing = f64::from(config.smoothing) * range;

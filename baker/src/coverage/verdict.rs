@@ -1,34 +1,34 @@
-//! What a shape becomes: the decision, and what it rests on.
+//! The decision what a shape becomes, with its reasons.
 
 use vtex_format::{FieldError, Finding};
 
 use crate::drawing::Item;
 
-/// How a shape covers cells.
+/// How the edges of a shape are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Coverage {
-    /// Tiles of a distance field.
+    /// Tiles of an MSDF.
     Msdf,
     /// Curve records.
     Curves,
 }
 
-/// A decision and what it rests on.
+/// The decision for one shape, with its reasons.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Verdict {
     /// What the shape becomes.
     pub(crate) coverage: Coverage,
-    /// Why it is no distance field, or what is wrong with it.
+    /// Why it is no MSDF, or what is wrong with its MSDF.
     pub(crate) finding: Finding,
-    /// Longer side of the shape in texels of the lattice on which its field was judged; 0 where
-    /// none was.
+    /// Longer side of the shape in texels of the lattice on which its MSDF was judged; 0 if none
+    /// was.
     pub(crate) size_texels: u32,
-    /// How far the field is off, where it was measured.
+    /// The error of its MSDF, if it was measured.
     pub(crate) error: Option<FieldError>,
 }
 
 impl Verdict {
-    /// A verdict that the mode gives.
+    /// A verdict that follows from the options alone.
     pub(crate) fn forced(coverage: Coverage) -> Self {
         Self::unmeasured(coverage, Finding::None)
     }
@@ -44,17 +44,17 @@ impl Verdict {
     }
 }
 
-/// What becomes of a drawing.
+/// The decisions for a drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Judgement {
-    /// One an item; what it says of patches has no meaning.
+    /// One for each item. Those of images and clips mean nothing.
     pub(crate) verdicts: Vec<Verdict>,
-    /// Texels of the lattice of distance fields along the canvas' longer side.
+    /// Texels of the MSDF lattice along the canvas' longer side.
     pub(crate) msdf_size: u32,
 }
 
 impl Judgement {
-    /// Whether every shape among the `items` judged becomes curves, and there is one.
+    /// Whether there are shapes among the judged `items` and all of them become curves.
     pub(crate) fn all_curves(&self, items: &[Item]) -> bool {
         let mut shapes = items
             .iter()

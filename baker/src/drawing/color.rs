@@ -1,10 +1,10 @@
-//! The sRGB transfer functions of IEC 61966-2-1, and what a colour leaves of what it masks.
+//! The sRGB transfer functions (IEC 61966-2-1) and the weight of a mask.
 
 use vtex_format::MaskKind;
 
 pub(crate) use vtex_shaders::cpu::color::{decode_channel as decode, encode_channel as encode};
 
-/// What a mask of one colour, straight alpha and sRGB-encoded, leaves of what it fades.
+/// The weight of a mask that has one colour: straight alpha, sRGB-encoded.
 pub(crate) fn mask_weight(kind: MaskKind, [r, g, b, a]: [f32; 4]) -> f32 {
     let light = |[r, g, b]: [f32; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
     match kind {

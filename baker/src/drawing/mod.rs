@@ -1,5 +1,7 @@
-//! The drawing as the baker sees it: shapes and patches in painter's order, in canvas space
-//! (SVG user units, origin top left, y down, the canvas being `[0, width] x [0, height]`).
+//! The drawing: items in painter's order and the tree of groups that holds them.
+//!
+//! All coordinates are in canvas space: SVG user units, origin top left, y down. The canvas is
+//! `[0, width] x [0, height]`; items may reach beyond it.
 
 pub(crate) mod color;
 pub(crate) mod paint;
@@ -17,11 +19,11 @@ use tree::Tree;
 /// A whole drawing, back to front.
 #[derive(Debug)]
 pub(crate) struct Drawing {
-    /// Width and height of the canvas.
+    /// Width and height of the canvas in user units.
     pub(crate) canvas_size: [f64; 2],
     /// Back to front.
     pub(crate) items: Vec<Item>,
-    /// How they belong together.
+    /// The groups that hold them.
     pub(crate) tree: Tree,
     /// What was approximated or left out.
     pub(crate) warnings: Vec<Warning>,
@@ -45,38 +47,38 @@ impl Drawing {
     }
 }
 
-/// One thing painted, or what limits others.
+/// One element of the drawing.
 #[derive(Debug)]
 pub(crate) enum Item {
     /// Geometry with a paint.
     Shape(Shape),
-    /// A subtree that is not yet geometry.
+    /// A raster image in place of what no shape can be.
     Patch(Patch),
-    /// Shows nothing: where a group may show.
+    /// An outline that clips a group. It paints nothing itself.
     Clip(ClipOutline),
 }
 
-/// An outline that a group is clipped to.
+/// An outline that clips a group.
 #[derive(Debug)]
 pub(crate) struct ClipOutline {
     /// Closed contours.
     pub(crate) outline: BezPath,
-    /// Inside test.
+    /// Its fill rule.
     pub(crate) rule: FillRule,
 }
 
-/// A filled region with one paint. Strokes arrive here already expanded.
+/// One outline filled with one paint. A stroke is a shape too: the walk has expanded it.
 #[derive(Debug)]
 pub(crate) struct Shape {
     /// Closed contours.
     pub(crate) outline: BezPath,
-    /// Inside test.
+    /// Its fill rule.
     pub(crate) fill_rule: FillRule,
-    /// What fills it, every opacity folded in.
+    /// What fills it, with every opacity folded in.
     pub(crate) paint: Paint,
-    /// Where it comes from.
+    /// Which half of an SVG path it comes from.
     pub(crate) source: ShapeSource,
-    /// `id` of the element or its nearest named ancestor, may be empty.
+    /// `id` of the element or of its nearest ancestor that has one; may be empty.
     pub(crate) element: String,
 }
 
@@ -89,12 +91,12 @@ pub(crate) enum ShapeSource {
     Stroke,
 }
 
-/// Inside test, SVG 2 sec. 13.3.2.
+/// Fill rule, SVG 2 sec. 13.3.2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FillRule {
-    /// Winding not zero.
+    /// Inside where the winding is not zero.
     NonZero,
-    /// Winding odd.
+    /// Inside where the winding is odd.
     EvenOdd,
 }
 
@@ -108,21 +110,22 @@ impl FillRule {
     }
 }
 
-/// A subtree as a raster image at its place in the painter's order.
+/// A raster image at its place in painter's order: a subtree that is not geometry, a shape that is
+/// too complex, or an embedded image with its own texels.
 #[derive(Debug)]
 pub(crate) struct Patch {
     /// Where it lies on the canvas.
     pub(crate) rect: Rect,
     /// Its texels and mips.
     pub(crate) image: Image,
-    /// Why it is not geometry, such as `linearGradient`.
+    /// Why it is not geometry, such as `filter`.
     pub(crate) feature: String,
-    /// `id` of the element, may be empty.
+    /// `id` of the element; may be empty.
     pub(crate) element: String,
 }
 
 impl Patch {
-    /// Share of the canvas where it shows something: texels with alpha above 0.
+    /// Share of the canvas that it covers: only texels with alpha above 0 count.
     pub(crate) fn area(&self, canvas_size: [f64; 2]) -> f32 {
         let texels = self.image.mips.first().map_or(&[][..], |level| level);
         let alphas = texels.iter().skip(3).step_by(4);

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use vtex_format::Gradient;
 
-/// A colour, or colours that depend on the place.
+/// A colour, or a gradient.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Paint {
-    /// Straight alpha, sRGB-encoded, every opacity folded in.
+    /// Straight alpha, sRGB-encoded, with every opacity folded in.
     Solid([f32; 4]),
-    /// In uv of the canvas, every opacity folded in.
+    /// A gradient in uv, with every opacity folded in.
     Gradient(Arc<Gradient>),
 }
 
@@ -17,7 +17,7 @@ impl Paint {
     /// Opaque black.
     pub(crate) const BLACK: Self = Self::Solid([0.0, 0.0, 0.0, 1.0]);
 
-    /// Whether it hides what lies behind it, everywhere.
+    /// Whether it is opaque everywhere.
     #[cfg(test)]
     pub(crate) fn is_opaque(&self) -> bool {
         match self {
@@ -26,7 +26,7 @@ impl Paint {
         }
     }
 
-    /// With every colour changed, straight alpha, sRGB-encoded.
+    /// The paint with `change` applied to every colour: straight alpha, sRGB-encoded.
     pub(crate) fn mapped(self, change: impl Fn([f32; 4]) -> [f32; 4]) -> Self {
         match self {
             Self::Solid(color) => Self::Solid(change(color)),
@@ -40,7 +40,7 @@ impl Paint {
         }
     }
 
-    /// Whether anything of it can be seen.
+    /// Whether it paints anything: some alpha is above 0.
     pub(crate) fn shows(&self) -> bool {
         match self {
             Self::Solid([.., alpha]) => *alpha > 0.0,

@@ -1,75 +1,76 @@
-//! Who belongs to whom: groups that clip, mask, fade or blend what they hold.
+//! The tree of groups: each clips, masks, fades or blends what it holds.
 //!
-//! Items are numbered depth first in painter's order; of a scope its clips' outlines come first,
-//! then what its masks show, then its children. So a node's items are a range of numbers.
+//! Items are numbered depth first, in painter's order. Within a group the outlines of its clips
+//! come first, then the items of its masks, then its children. So the items of any node are one
+//! range of numbers, and a search for the node of an item is a binary search.
 
 use vtex_format::{BlendMode, MaskKind};
 
 /// A drawing's nodes, back to front.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Tree {
-    /// What lies directly on the canvas.
+    /// The nodes that are in no group.
     pub(crate) roots: Vec<Node>,
 }
 
 /// An item or a group of them.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Node {
-    /// Index of an item that is painted.
+    /// Index of an item that paints.
     Item(u32),
-    /// A group that is more than the sum of its items.
-    Scope(Box<Scope>),
+    /// A group that shows something other than its items painted one by one.
+    Group(Box<Group>),
 }
 
-/// A group with what is done to it as a whole. Nothing of it shows outside the clips; then it is
-/// faded by opacity and masks, then blended with what lies behind it.
+/// Items that are clipped, masked, faded or blended as a whole, in this order: the clips cut it,
+/// the masks and the opacity fade it, and the blend mode composites it with what lies behind.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Scope {
-    /// Its first item and the one behind its last.
+pub(crate) struct Group {
+    /// Its first item and one past its last.
     pub(crate) items: [u32; 2],
-    /// A point shows where it lies in all of them.
+    /// The group shows at points that lie in all of them.
     pub(crate) clips: Vec<Clip>,
     /// Their weights multiply.
     pub(crate) masks: Vec<Mask>,
     /// In \[0, 1\].
     pub(crate) opacity: f32,
-    /// How it is composited.
+    /// Its blend mode.
     pub(crate) blend: BlendMode,
-    /// Whether what is inside blends with nothing outside.
+    /// Whether blend modes inside see nothing of what lies behind the group.
     pub(crate) isolated: bool,
     /// Back to front.
     pub(crate) children: Vec<Node>,
 }
 
-/// A region: where any of its parts is.
+/// A region: the union of its parts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Clip {
-    /// The union's members.
+    /// Outlines, each perhaps clipped itself.
     pub(crate) parts: Vec<ClipPart>,
 }
 
 /// An outline, itself clipped.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ClipPart {
-    /// Index of the item that is the outline.
+    /// Index of the item that holds the outline.
     pub(crate) item: u32,
-    /// A point of the outline counts where it lies in all of them.
+    /// Only points that lie in all of them count.
     pub(crate) clips: Vec<Clip>,
 }
 
-/// A picture whose light or alpha fades a group.
+/// A picture whose luminance or alpha weights a group.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Mask {
-    /// What of the picture counts.
+    /// Luminance or alpha.
     pub(crate) kind: MaskKind,
-    /// Its first item and the one behind its last.
+    /// Its first item and one past its last.
     pub(crate) items: [u32; 2],
-    /// Back to front, over nothing.
+    /// Back to front, painted over transparent black.
     pub(crate) children: Vec<Node>,
 }
 
 impl Tree {
-    /// Items without groups.
+    /// A tree of `items` items without groups.
     pub(crate) fn flat(items: usize) -> Self {
         let count = u32::try_from(items).unwrap_or(u32::MAX);
         Self {
@@ -77,10 +78,10 @@ impl Tree {
         }
     }
 
-    /// The tree after items went: `place[i]` is the new number of item `i`. Numbers keep their
-    /// order.
+    /// The tree after some items were removed: `place[i]` is the new number of item `i`, `None` if
+    /// it is gone. Numbers must keep their order.
     pub(crate) fn renumbered(self, place: &[Option<u32>]) -> Self {
-        // New numbers before an old one, for ends of ranges.
+        // How many items are kept before each old number: the ends of ranges become these.
         let mut before = vec![0; place.len() + 1];
         for (index, kept) in place.iter().enumerate() {
             before[index + 1] = before[index] + u32::from(kept.is_some());
@@ -93,17 +94,17 @@ impl Tree {
 }
 
 impl Node {
-    /// Its first item and the one behind its last.
+    /// Its first item and one past its last.
     pub(crate) fn items(&self) -> [u32; 2] {
         match self {
             Self::Item(item) => [*item, item + 1],
-            Self::Scope(scope) => scope.items,
+            Self::Group(group) => group.items,
         }
     }
 }
 
-impl Scope {
-    /// Whether lookups have to composite it apart from what lies behind.
+impl Group {
+    /// Whether lookups must composite it apart from what lies behind. Clips alone do not need that.
     pub(crate) fn is_group(&self) -> bool {
         self.isolated || self.opacity < 1.0 || !self.masks.is_empty()
     }
@@ -124,14 +125,14 @@ impl Renumbering<'_> {
             .into_iter()
             .filter_map(|node| match node {
                 Node::Item(item) => self.place[item as usize].map(Node::Item),
-                Node::Scope(scope) => self.scope(*scope),
+                Node::Group(group) => self.group(*group),
             })
             .collect()
     }
 
     /// `None` when nothing is left to show.
-    fn scope(&self, scope: Scope) -> Option<Node> {
-        let children = self.nodes(scope.children);
+    fn group(&self, group: Group) -> Option<Node> {
+        let children = self.nodes(group.children);
         if children.is_empty() {
             return None;
         }
@@ -140,12 +141,12 @@ impl Renumbering<'_> {
             items: self.range(mask.items),
             children: self.nodes(mask.children),
         };
-        Some(Node::Scope(Box::new(Scope {
-            items: self.range(scope.items),
-            clips: self.clips(scope.clips),
-            masks: scope.masks.into_iter().map(mask).collect(),
+        Some(Node::Group(Box::new(Group {
+            items: self.range(group.items),
+            clips: self.clips(group.clips),
+            masks: group.masks.into_iter().map(mask).collect(),
             children,
-            ..scope
+            ..group
         })))
     }
 

@@ -1,24 +1,31 @@
-//! Outlines brought back from absurd distances.
+//! Moving far parts of an outline nearer, without a change of the picture.
+//!
+//! SVG allows coordinates far beyond any lattice of integers. What lies outside a large square only
+//! matters through its winding inside the square, and clamping points to the square keeps that.
 
 use kurbo::{BezPath, CubicBez, Line, ParamCurve, PathEl, PathSeg, Point, QuadBez, Rect};
 
-/// Pieces smaller than this share of the window that still cross its border are moved as a whole:
-/// what is off by so little so far away does not show.
+use super::segment::control_box;
+
+/// Pieces of a segment that cross the border and are smaller than this share of the square are not
+/// cut further but replaced by a line: that far away the error does not show.
 const SMALLEST_SHARE: f64 = 1.0 / 1024.0;
-/// Halvings of a segment; a double has no more to give.
+/// Most halvings of a segment. More cannot change a coordinate in f64.
 const MAX_HALVINGS: u32 = 160;
 
-/// `outline`, its contours closed, with nothing further than `farthest` from the origin along
-/// either axis. Windings inside that square do not change, and segments that lie inside it stay
+/// The outline with contours closed and no point further than `farthest` from the origin along
+/// either axis. Windings inside that square stay the same, and segments inside it stay
 /// bit-identical.
 pub(crate) fn clamp_outline(outline: &BezPath, farthest: f64) -> BezPath {
     let window = Rect::new(-farthest, -farthest, farthest, farthest);
+    // The usual case: nothing is far away.
     if is_inside(outline.control_box(), window) {
         return outline.clone();
     }
     let mut clamped = BezPath::new();
     let mut here = None;
     for segment in outline.segments() {
+        // A segment that does not continue the last one starts a contour.
         let start = clamp(segment.start(), window);
         if here != Some(start) {
             if here.is_some() {
@@ -35,8 +42,9 @@ pub(crate) fn clamp_outline(outline: &BezPath, farthest: f64) -> BezPath {
     clamped
 }
 
-/// Appends `segment`. A piece whose box lies beside the window may become the line between its
-/// ends, and as it lies beyond one side of the window, so do the ends once they are moved there.
+/// Appends `segment`, halving it until each piece lies inside the window, beside it, or is small.
+/// A piece beside the window lies beyond one of its sides. Its ends are moved onto that side, so
+/// the line between them winds around the same points inside.
 fn push(segment: PathSeg, window: Rect, halvings: u32, clamped: &mut BezPath) {
     let area = control_box(&segment);
     if is_inside(area, window) {
@@ -47,6 +55,7 @@ fn push(segment: PathSeg, window: Rect, halvings: u32, clamped: &mut BezPath) {
     let small = area.width().max(area.height()) <= SMALLEST_SHARE * window.width();
     if beside || small || halvings == 0 {
         let end = clamp(segment.end(), window);
+        // Several pieces in a row may be moved to one corner.
         if clamped.elements().last().and_then(PathEl::end_point) != Some(end) {
             clamped.line_to(end);
         }
@@ -57,8 +66,8 @@ fn push(segment: PathSeg, window: Rect, halvings: u32, clamped: &mut BezPath) {
     push(second, window, halvings - 1, clamped);
 }
 
-/// By means alone, so that ends stay bit-exact and the near part of a huge segment keeps its
-/// precision.
+/// Halves by means of points alone (de Casteljau at 1/2): ends stay bit-exact, and the near part of
+/// a huge segment keeps its precision.
 fn halves(segment: PathSeg) -> (PathSeg, PathSeg) {
     match segment {
         PathSeg::Line(l) => {
@@ -82,14 +91,6 @@ fn halves(segment: PathSeg) -> (PathSeg, PathSeg) {
             let first = CubicBez::new(c.p0, a, d, middle);
             (first.into(), CubicBez::new(middle, e, b, c.p3).into())
         }
-    }
-}
-
-fn control_box(segment: &PathSeg) -> Rect {
-    match segment {
-        PathSeg::Line(l) => Rect::from_points(l.p0, l.p1),
-        PathSeg::Quad(q) => Rect::from_points(q.p0, q.p2).union_pt(q.p1),
-        PathSeg::Cubic(c) => Rect::from_points(c.p0, c.p3).union_pt(c.p1).union_pt(c.p2),
     }
 }
 

@@ -1,17 +1,17 @@
-//! Outlines as short straight lines within a stated tolerance.
+//! Outlines as short straight lines, within a stated tolerance.
 
 use kurbo::{BezPath, Line, ParamCurve, PathEl, PathSeg, Point, Rect};
 
 use crate::number::{count, floor_index};
 
-/// Most lines one segment is cut into; a segment that would need more is coarser than asked.
+/// Most lines that one segment is cut into. A segment that needs more is coarser than asked.
 const MAX_LINES: f64 = 65_536.0;
 
-/// Points that follow each other along an outline.
+/// The points of a contour in order.
 type Polyline = Vec<Point>;
 
-/// Appends the end points of the lines that replace `segment`, without its start. No line leaves
-/// the curve by more than `tolerance`.
+/// Appends the end points of the lines that replace `segment`. Its start is not appended. No line
+/// is further than `tolerance` from the curve.
 pub(crate) fn flatten_segment(segment: PathSeg, tolerance: f64, points: &mut Polyline) {
     let bend = match segment {
         PathSeg::Line(_) => 0.0,
@@ -22,7 +22,8 @@ pub(crate) fn flatten_segment(segment: PathSeg, tolerance: f64, points: &mut Pol
             6.0 * first.max(second)
         }
     };
-    // A chord over a step h of the parameter leaves the curve by at most h^2 max|B''| / 8.
+    // A chord over a step h of the parameter leaves the curve by at most h^2 max|B''| / 8. `bend`
+    // is that largest second derivative: constant for a quadratic, largest at an end for a cubic.
     let lines = (bend / (8.0 * tolerance))
         .sqrt()
         .ceil()
@@ -34,7 +35,7 @@ pub(crate) fn flatten_segment(segment: PathSeg, tolerance: f64, points: &mut Pol
     points.push(segment.end());
 }
 
-/// One polyline a contour.
+/// One polyline for each contour. A contour without length has none.
 pub(crate) fn flatten(outline: &BezPath, tolerance: f64) -> Vec<Polyline> {
     let mut contours = Vec::new();
     let mut points: Polyline = Vec::new();
@@ -47,6 +48,7 @@ pub(crate) fn flatten(outline: &BezPath, tolerance: f64) -> Vec<Polyline> {
             }
             PathEl::ClosePath => {
                 let first = points.first().copied();
+                // Repeat the first point, unless the contour already ends there.
                 if first != points.last().copied() {
                     points.extend(first);
                 }
@@ -80,6 +82,7 @@ pub(crate) fn clip_line(line: Line, window: Rect) -> Option<Line> {
         (-d.y, line.p0.y - window.y0),
         (d.y, window.y1 - line.p0.y),
     ] {
+        // The line is parallel to this side: all of it lies on one side of it.
         if p == 0.0 {
             if q < 0.0 {
                 return None;
@@ -93,7 +96,7 @@ pub(crate) fn clip_line(line: Line, window: Rect) -> Option<Line> {
     if enter > leave {
         return None;
     }
-    // The ends stay bit-exact where nothing is cut, so that runs join again.
+    // Where nothing is cut the ends stay bit-exact: a caller can see that lines still join.
     let at = |t: f64| match t {
         0.0 => line.p0,
         1.0 => line.p1,

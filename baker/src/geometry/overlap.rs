@@ -26,6 +26,8 @@ pub(crate) fn line_box_distance(line: Line, area: Rect) -> f64 {
         Point::new(area.x1, area.y1),
         Point::new(area.x0, area.y1),
     ];
+    // The line is outside the box, so the nearest pair has a corner of the box or an end of the
+    // line.
     let from_corners = corners.map(|p| point_line_distance(p, line));
     let from_ends = [line.p0, line.p1].map(|p| (p - clamp(p, area)).hypot());
     from_corners
@@ -49,6 +51,8 @@ fn point_line_distance(p: Point, line: Line) -> f64 {
     (p - (line.p0 + t * d)).hypot()
 }
 
+/// Whether two segments cross in a point inside both. Where they only touch, an end lies on the
+/// other segment and the distances of ends are 0.
 fn cross(a: Line, b: Line) -> bool {
     let side = |l: Line, p: Point| Vec2::cross(l.p1 - l.p0, p - l.p0);
     let (a0, a1) = (side(b, a.p0), side(b, a.p1));

@@ -6,7 +6,8 @@ use crate::{
     testing::{Random, random_outline},
 };
 
-/// Winding by the angle that the outline turns around `p`: shares nothing with the scanline.
+/// Winding by the angle that the outline turns around `p`, which shares nothing with the code
+/// tested.
 fn winding_by_angle(outline: &BezPath, p: Point) -> i32 {
     let mut turn = 0.0;
     for contour in flatten(outline, 1e-4) {

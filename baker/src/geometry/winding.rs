@@ -1,17 +1,21 @@
-//! Winding numbers of Bezier outlines, watertight: every point of the plane gets the winding of
-//! some outline within rounding of the true one, and neighbouring segments never disagree.
+//! Winding numbers of Bezier outlines, watertight: every point of the plane gets the winding of an
+//! outline that differs from the true one by rounding alone.
 //!
-//! Segments are cut at their extrema in y. A monotone piece meets the horizontal line through `y`
-//! exactly when `y_min <= y < y_max`, and pieces that follow each other share the bit-exact y.
+//! Segments are cut at their extrema in y, so that each piece is monotone in y. A piece meets the
+//! horizontal line through `y` if `y_min <= y < y_max`. This rule is half open, and pieces that
+//! follow each other share the bit-exact y: a line through their common point meets exactly one of
+//! them where the outline goes on, and both or neither where it turns. So no rounding can lose or
+//! double a crossing; it can only move one along the line.
 
 use kurbo::{BezPath, ParamCurve, PathSeg, Point, Rect};
 
+use super::segment::{control_box, set_end, set_start};
 use crate::{
     drawing::FillRule,
     number::{count, floor_index},
 };
 
-/// Most rows a [`Region`] sorts its pieces into; bounds memory for tall thin drawings.
+/// Most rows that a [`Region`] sorts its pieces into: bounds the memory.
 const MAX_ROWS: f64 = 4096.0;
 
 /// A piece of a segment along which y only grows or only falls.
@@ -47,10 +51,13 @@ impl Monotone {
         x.clamp(self.x_min, self.x_max)
     }
 
-    /// Newton's method kept inside a shrinking bracket.
+    /// The parameter at height `y`: Newton's method, kept inside a bracket that shrinks. A step
+    /// that leaves the bracket becomes a bisection, so the loop converges for any cubic.
     fn parameter_at(&self, c: [f64; 4], y: f64) -> f64 {
+        // With the sign of the direction the function always grows with t.
         let sign = f64::from(self.direction);
         let (mut low, mut high) = (0.0_f64, 1.0_f64);
+        // Start where a straight piece would be.
         let mut t = (y - self.y_min) / (self.y_max - self.y_min);
         if self.direction < 0 {
             t = 1.0 - t;
@@ -70,6 +77,7 @@ impl Monotone {
             if !(next > low && next < high) {
                 next = 0.5 * (low + high);
             }
+            // Closer than f64 can tell parameters near 1 apart.
             if (next - t).abs() < 1e-16 {
                 break;
             }
@@ -79,9 +87,10 @@ impl Monotone {
     }
 }
 
-/// Coefficients of `1, t, t^2, t^3` for x and y.
+/// Coefficients of `1, t, t^2, t^3` for x and for y.
 fn power_basis(p: [Point; 4], degree: u32) -> ([f64; 4], [f64; 4]) {
     let of = |a: f64, b: f64, c: f64, d: f64| {
+        // Callers pass the control point of a quadratic twice; the second copy is not used.
         if degree == 2 {
             [a, 2.0 * (b - a), a - 2.0 * b + d, 0.0]
         } else {
@@ -101,7 +110,8 @@ fn evaluate(c: [f64; 4], t: f64) -> f64 {
     c[0] + t * (c[1] + t * (c[2] + t * c[3]))
 }
 
-/// A filled outline that answers inside tests.
+/// A filled outline that answers inside tests. Pieces are sorted into rows by y, so a test looks at
+/// few of them.
 #[derive(Clone, Debug)]
 pub(crate) struct Region {
     pieces: Vec<Monotone>,
@@ -109,18 +119,19 @@ pub(crate) struct Region {
     /// Box of the control points.
     bounds: Rect,
     rows_per_unit: f64,
-    /// `row_pieces[row_first[r]..row_first[r + 1]]` reach into row `r`.
+    /// Pieces `row_pieces[row_first[r]..row_first[r + 1]]` reach into row `r`.
     row_first: Vec<usize>,
     row_pieces: Vec<usize>,
 }
 
 impl Region {
-    /// Every contour of `outline` must be closed.
+    /// A region of closed contours.
     pub(crate) fn new(outline: &BezPath, rule: FillRule) -> Self {
         let pieces: Vec<Monotone> = outline.segments().flat_map(monotone_pieces).collect();
         let bounds = outline.control_box();
         let height = bounds.height().max(f64::MIN_POSITIVE);
-        // About four references a piece: few rows where pieces are tall, many where they are short.
+        // Aims at four rows for each piece on average: few rows where pieces are tall, many where
+        // they are short. So memory stays proportional to the outline.
         let heights: f64 = pieces.iter().map(|p| (p.y_max - p.y_min) / height).sum();
         let rows = (4.0 * count(pieces.len()) / heights.max(1.0)).clamp(1.0, MAX_ROWS);
         let mut region = Self {
@@ -147,6 +158,7 @@ impl Region {
                 first[row + 1] += 1;
             }
         }
+        // Counting sort: counts become the first place of each row.
         for row in 0..rows {
             first[row + 1] += first[row];
         }
@@ -167,6 +179,7 @@ impl Region {
 
     fn pieces_at(&self, y: f64) -> impl Iterator<Item = &Monotone> {
         let rows = self.row_first.len() - 1;
+        // Beyond the box `row_of` would still name a row.
         let inside = y >= self.bounds.y0 && y <= self.bounds.y1;
         let row = self.row_of(y, rows);
         let range = if inside {
@@ -185,11 +198,12 @@ impl Region {
         self.bounds
     }
 
-    /// How often the outline turns around `p`; a contour of positive area turns once, positively.
+    /// The winding number of `p`. A contour of positive area winds +1 around its inside.
     pub(crate) fn winding(&self, p: Point) -> i32 {
         self.pieces_at(p.y)
+            // Only pieces at or to the left of `p` count. The boxes decide most of them.
             .filter(|piece| p.x >= piece.x_max || (p.x >= piece.x_min && p.x >= piece.x_at(p.y)))
-            // Left of the inside of a positive contour the outline runs towards smaller y.
+            // To the left of the inside of a positive contour the outline runs towards smaller y.
             .map(|piece| -piece.direction)
             .sum()
     }
@@ -199,7 +213,7 @@ impl Region {
         self.rule.fills(self.winding(p))
     }
 
-    /// Crossings of the horizontal line through `y` as `(x, winding to its right)`, sorted.
+    /// Crossings of the horizontal line through `y`: x, and the winding to the right of it. Sorted.
     pub(crate) fn crossings(&self, y: f64) -> Vec<(f64, i32)> {
         let mut row: Vec<(f64, i32)> = self
             .pieces_at(y)
@@ -214,14 +228,15 @@ impl Region {
         row
     }
 
-    /// Whether a point with abscissa `x` on the line of `crossings` is filled.
+    /// Whether the point at `x` on the line that has these `crossings` is filled.
     pub(crate) fn fills_row(&self, crossings: &[(f64, i32)], x: f64) -> bool {
+        // A crossing at x itself counts as left of the point, as in `winding`.
         let right = crossings.partition_point(|crossing| crossing.0 <= x);
         right > 0 && self.rule.fills(crossings[right - 1].1)
     }
 }
 
-/// Cuts `segment` at its extrema in y and leaves out what is horizontal.
+/// Cuts `segment` at its extrema in y. Horizontal pieces cross no line and are left out.
 fn monotone_pieces(segment: PathSeg) -> Vec<Monotone> {
     let mut cuts = vec![0.0];
     cuts.extend(y_extrema(&segment));
@@ -235,37 +250,28 @@ fn monotone_pieces(segment: PathSeg) -> Vec<Monotone> {
         } else {
             segment.subsegment(pair[0]..pair[1])
         };
+        // The end of the segment is taken as it is: evaluating the curve there may round.
         let to = if pair[1] == 1.0 {
             segment.end()
         } else {
             curve.end()
         };
-        set_ends(&mut curve, from, to);
+        // Invariant: consecutive pieces share the bit-exact point.
+        set_start(&mut curve, from);
+        set_end(&mut curve, to);
         pieces.extend(monotone(curve));
         from = to;
     }
     pieces
 }
 
-/// Invariant: consecutive pieces share the bit-exact point.
-fn set_ends(curve: &mut PathSeg, from: Point, to: Point) {
-    match curve {
-        PathSeg::Line(l) => (l.p0, l.p1) = (from, to),
-        PathSeg::Quad(q) => (q.p0, q.p2) = (from, to),
-        PathSeg::Cubic(c) => (c.p0, c.p3) = (from, to),
-    }
-}
-
 fn monotone(curve: PathSeg) -> Option<Monotone> {
     let (y0, y1) = (curve.start().y, curve.end().y);
+    // Of no height: it meets no line by the half-open rule.
     if y0 == y1 {
         return None;
     }
-    let control = match curve {
-        PathSeg::Line(l) => Rect::from_points(l.p0, l.p1),
-        PathSeg::Quad(q) => Rect::from_points(q.p0, q.p2).union_pt(q.p1),
-        PathSeg::Cubic(c) => Rect::from_points(c.p0, c.p3).union_pt(c.p1).union_pt(c.p2),
-    };
+    let control = control_box(&curve);
     Some(Monotone {
         curve,
         y_min: y0.min(y1),
@@ -276,12 +282,13 @@ fn monotone(curve: PathSeg) -> Option<Monotone> {
     })
 }
 
-/// Parameters in (0, 1) where y turns, ascending.
+/// Parameters in (0, 1) at which y has an extremum, ascending.
 fn y_extrema(segment: &PathSeg) -> Vec<f64> {
     let mut roots: Vec<f64> = match segment {
         PathSeg::Line(_) => Vec::new(),
         PathSeg::Quad(q) => {
             let (a, b) = (q.p1.y - q.p0.y, q.p2.y - q.p1.y);
+            // Infinite or NaN for a quadratic that is straight in y; filtered below.
             vec![a / (a - b)]
         }
         PathSeg::Cubic(c) => {

@@ -1,8 +1,8 @@
-//! Gradients in f64, straight from their definition: for the brute-force painter.
+//! Gradients in f64, straight from their definition in the format.
 
 use vtex_format::{Gradient, GradientShape, Spread};
 
-/// The colour at a place in uv: straight alpha, sRGB-encoded.
+/// The colour at a uv: straight alpha, sRGB-encoded.
 pub(crate) fn color_at(gradient: &Gradient, uv: [f64; 2]) -> [f64; 4] {
     let Some(t) = parameter(&gradient.shape, uv) else {
         return [0.0; 4];
@@ -29,7 +29,7 @@ pub(crate) fn color_at(gradient: &Gradient, uv: [f64; 2]) -> [f64; 4] {
     }
 }
 
-/// t of a place, where it has one.
+/// The parameter t at a uv, if it has one.
 fn parameter(shape: &GradientShape, [u, v]: [f64; 2]) -> Option<f64> {
     match *shape {
         GradientShape::Linear { t_from_uv } => {

@@ -1,10 +1,13 @@
-//! What a lookup must return, from the outlines and nothing else: for this workspace's tests.
+//! The oracle: what a lookup must return, computed slowly in f64 from the outlines alone.
 //!
-//! The Cargo feature `oracle` adds this module. It is no part of what the crate promises.
+//! It is for the tests of this workspace and needs the Cargo feature `oracle`. It may change or
+//! disappear in any release.
 
 mod blend;
 pub(crate) mod gradient;
-mod painter;
+mod point;
 mod tree;
 
-pub use painter::Painter;
+pub use point::Oracle;
+#[cfg(test)]
+pub(crate) use point::crossing;

@@ -1,23 +1,22 @@
-//! What the items at one point come to, group by group.
+//! Compositing the items at one point, group by group.
 
 use vtex_format::MaskKind;
 use vtex_shaders::cpu::color::decode;
 
 use super::blend::blend;
-use crate::drawing::tree::{Clip, Mask, Node, Scope};
+use crate::drawing::tree::{Clip, Group, Mask, Node};
 
-/// The items that a point lies in.
+/// The items that contain a point.
 #[derive(Debug)]
 pub(super) struct Covering<'a, P> {
     /// Ascending.
     pub(super) items: &'a [u32],
-    /// Colour of an item there, straight alpha, sRGB-encoded.
+    /// Colour of an item there: straight alpha, sRGB-encoded.
     pub(super) color: P,
 }
 
 impl<P: Fn(u32) -> [f64; 4]> Covering<'_, P> {
-    /// `nodes` painted over `ground`: sRGB-encoded, premultiplied, in f64: rounding must not depend
-    /// on how entries were merged.
+    /// The nodes painted over `ground`: sRGB-encoded, premultiplied.
     pub(super) fn paint(&self, nodes: &[Node], ground: [f64; 4]) -> [f64; 4] {
         let mut out = ground;
         let mut rest = self.items;
@@ -27,9 +26,9 @@ impl<P: Fn(u32) -> [f64; 4]> Covering<'_, P> {
             rest = others;
             match node.filter(|node| item < node.items()[1]) {
                 Some(Node::Item(_)) => out = over((self.color)(item), out),
-                Some(Node::Scope(scope)) => {
-                    out = self.scope(scope, out);
-                    let inside = rest.partition_point(|&other| other < scope.items[1]);
+                Some(Node::Group(group)) => {
+                    out = self.group(group, out);
+                    let inside = rest.partition_point(|&other| other < group.items[1]);
                     rest = &rest[inside..];
                 }
                 None => {}
@@ -38,17 +37,17 @@ impl<P: Fn(u32) -> [f64; 4]> Covering<'_, P> {
         out
     }
 
-    fn scope(&self, scope: &Scope, ground: [f64; 4]) -> [f64; 4] {
-        if !self.inside(&scope.clips) {
+    fn group(&self, group: &Group, ground: [f64; 4]) -> [f64; 4] {
+        if !self.inside(&group.clips) {
             return ground;
         }
-        let masks = scope.masks.iter().map(|mask| self.weight(mask));
-        let weight = f64::from(scope.opacity) * masks.product::<f64>();
-        if scope.isolated {
-            let picture = self.paint(&scope.children, [0.0; 4]);
-            return blend(scope.blend, picture.map(|c| weight * c), ground);
+        let masks = group.masks.iter().map(|mask| self.weight(mask));
+        let weight = f64::from(group.opacity) * masks.product::<f64>();
+        if group.isolated {
+            let picture = self.paint(&group.children, [0.0; 4]);
+            return blend(group.blend, picture.map(|c| weight * c), ground);
         }
-        let picture = self.paint(&scope.children, ground);
+        let picture = self.paint(&group.children, ground);
         std::array::from_fn(|i| (1.0 - weight) * ground[i] + weight * picture[i])
     }
 

@@ -20,8 +20,10 @@ use crate::{
     raster::canvas,
 };
 
-/// Everything between the drawing and the bytes. Pure; the same at any thread count. `mip0` is the
-/// size of the canvas' mip chain in texels, `None` for a file without.
+/// The file of a drawing. `mip0` is the size of mip 0 in texels; `None` makes a file without mips.
+///
+/// # Errors
+/// [`BakeError::Limit`] for a drawing that asks for too much.
 pub(crate) fn assemble(
     mut drawing: Drawing,
     mip0: Option<[u32; 2]>,
@@ -37,9 +39,10 @@ pub(crate) fn assemble(
     let packing = pack_items(&layout.placed, lattice, scales, config.merge);
 
     observer(Stage::Cells);
+    // Mips, if there are any, are image 0.
+    let first_patch = u32::from(mip0.is_some());
     let tree = std::mem::take(&mut drawing.tree);
     let mut paints = PaintTable::default();
-    let first_patch = u32::from(mip0.is_some());
     let paint_or_image = number_paints(&layout.placed, first_patch, &mut paints);
     let layers = Layers::new(&layout.placed, &packing);
     let input = CellInput {
@@ -67,6 +70,7 @@ pub(crate) fn assemble(
     let mut file = records::file(drawing, stages, config, source_hash, mip0.is_some())?;
 
     if let Some(size) = mip0 {
+        // Mips are averages of lookups in the finished cells.
         observer(Stage::Mips);
         canvas::add_mips(&mut file, size, config.mode);
     }

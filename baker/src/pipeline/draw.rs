@@ -1,4 +1,4 @@
-//! The front half: SVG bytes to a drawing.
+//! The front half of a bake: from SVG bytes to a drawing.
 
 use vtex_format::WarningCode;
 
@@ -11,7 +11,10 @@ use crate::{
     warning::Warnings,
 };
 
-/// The drawing that `svg` describes: what is geometry as shapes, all else as patches.
+/// The drawing of an SVG: geometry as shapes, everything else as images.
+///
+/// # Errors
+/// [`BakeError::Svg`] and [`BakeError::Limit`], see [`crate::bake`].
 pub(crate) fn draw(
     svg: &[u8],
     config: &BakeConfig,

@@ -1,4 +1,5 @@
-//! What stands in for shapes that cannot be curves.
+//! The fallback for outlines that are too complex for curves: shapes become patches, clips are
+//! dropped.
 
 use vtex_format::{Warning, WarningCode};
 
@@ -13,9 +14,10 @@ use crate::{
     drawing::{Drawing, Item, Patch},
     number::count,
     raster::patch::{self, PatchSettings},
+    warning,
 };
 
-/// Puts patches in the place of shapes that cannot be curves.
+/// Replaces shapes that cannot be curves by patches, and resolves all covers. Warns about each.
 pub(crate) fn patch_failures(
     covers: Vec<Result<Cover, CurveError>>,
     drawing: &mut Drawing,
@@ -24,6 +26,7 @@ pub(crate) fn patch_failures(
     settings: PatchSettings,
 ) -> Vec<Cover> {
     let failures = covers.iter().filter(|cover| cover.is_err()).count();
+    // All of them share the texels of patches equally.
     let share = 1.0 / count(failures.max(1));
     let longer = drawing.longer_side();
     let items = drawing.items.iter_mut().zip(placed);
@@ -38,7 +41,7 @@ pub(crate) fn patch_failures(
                 }
                 Item::Patch(_) => return Cover::default(),
             };
-            // A shape of which nothing shows is listed nowhere.
+            // Without a patch nothing of the shape shows, and its empty cover lists it nowhere.
             if let Some(patch) = patch::of_shape(shape, settings, share) {
                 drawing
                     .warnings
@@ -53,13 +56,8 @@ pub(crate) fn patch_failures(
 }
 
 fn clip_warning() -> Warning {
-    Warning {
-        code: WarningCode::PathFallback,
-        feature: "clipPath".into(),
-        element: String::new(),
-        message: "an outline to clip to is too complex for curves; nothing is clipped to it".into(),
-        area: 0.0,
-    }
+    let message = "an outline to clip to is too complex for curves; nothing is clipped to it";
+    warning::plain(WarningCode::PathFallback, "clipPath", "", message)
 }
 
 fn failure_warning(patch: &Patch, canvas_size: [f64; 2]) -> Warning {

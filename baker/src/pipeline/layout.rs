@@ -18,7 +18,7 @@ use crate::{
     raster::patch::PatchSettings,
 };
 
-/// Pieces of outlines in cells beyond which no finer grid is tried: 200 MiB of them.
+/// Most pieces of outlines in all cells of a grid that is tried. They take 200 MiB.
 const MAX_PIECES: f64 = 2e6;
 
 /// A drawing on its grid.
@@ -30,12 +30,12 @@ pub(crate) struct Layout {
     pub(crate) scales: Scales,
     /// The items, in painter's order.
     pub(crate) placed: Vec<Placed>,
-    /// What each of them is to the cells.
+    /// Where each of them shows.
     pub(crate) covers: Vec<Cover>,
 }
 
-/// Decides for each shape what it becomes and lays the drawing on a grid. Shapes that cannot be
-/// what was decided become patches of `drawing`.
+/// Judges the shapes and lays the drawing on a grid. Shapes that are too complex for curves become
+/// patches in `drawing`.
 pub(crate) fn lay_out(drawing: &mut Drawing, config: &BakeConfig) -> Layout {
     let judgement = judge(drawing, config);
     let attempt = lay(drawing, &judgement, config);
@@ -55,7 +55,7 @@ pub(crate) fn lay_out(drawing: &mut Drawing, config: &BakeConfig) -> Layout {
     }
 }
 
-/// A drawing on a grid that some of its shapes may be too complex for.
+/// A drawing on a grid whose cells some shapes may be too complex for.
 struct Attempt {
     lattice: Lattice,
     scales: Scales,
@@ -77,7 +77,9 @@ impl Attempt {
     }
 }
 
-/// Lays the drawing on the coarsest grid whose cells have room for its outlines.
+/// Lays the drawing on a grid. If all shapes are curves, it is the coarsest one whose cells have
+/// room for the outlines, as far as [`MAX_PIECES`] allows; with MSDFs the judge has decided the
+/// size.
 fn lay(drawing: &Drawing, judgement: &Judgement, config: &BakeConfig) -> Attempt {
     let (canvas_size, mip0_size) = (drawing.canvas_size, config.mip0_size);
     let msdf_size = judgement.msdf_size;
@@ -86,7 +88,7 @@ fn lay(drawing: &Drawing, judgement: &Judgement, config: &BakeConfig) -> Attempt
         return on(Lattice::new(canvas_size, msdf_size));
     }
     let mut attempt = on(Lattice::for_curves(canvas_size, msdf_size, mip0_size));
-    // What is too much for a cell may not be for its parts.
+    // An outline that is too much for one cell may fit into smaller ones.
     while attempt.covers.iter().any(Result::is_err) {
         let halved = attempt.lattice.halved(canvas_size, mip0_size);
         let Some(halved) = halved.filter(|halved| pieces(&attempt.placed, halved) <= MAX_PIECES)
@@ -98,7 +100,8 @@ fn lay(drawing: &Drawing, judgement: &Judgement, config: &BakeConfig) -> Attempt
     attempt
 }
 
-/// About how many pieces the cells of a lattice cut outlines into, which are placed on another.
+/// About how many pieces the cells of `lattice` would cut the outlines into. They are placed on
+/// another lattice, so lengths are taken relative to the canvas.
 fn pieces(placed: &[Placed], lattice: &Lattice) -> f64 {
     let shapes = placed.iter().filter(|item| item.kind != PlacedKind::Patch);
     let segments = shapes.flat_map(|item| item.outline.segments());

@@ -1,4 +1,5 @@
-//! The stages of a bake in order, from SVG bytes to the file.
+//! The stages of a bake in order: first [`draw`], from the SVG to a drawing, then [`assemble`],
+//! from the drawing to the file.
 
 mod assemble;
 mod draw;
@@ -9,6 +10,7 @@ mod raster_mode;
 mod records;
 #[cfg(test)]
 mod tests;
+mod warnings;
 
 use vtex_format::VtexFile;
 
@@ -22,17 +24,17 @@ pub(crate) use assemble::assemble;
 pub(crate) use draw::draw;
 pub(crate) use raster_mode::rastered;
 
-/// Bakes `svg`, the bytes of an SVG or gzipped SVG. What was approximated or left out stands in
-/// the warnings of the file's provenance.
+/// Bakes the bytes of an SVG or a gzipped SVG. The warnings in the file's provenance say what was
+/// approximated or left out.
 ///
 /// # Errors
 /// [`BakeError::Svg`] for bytes that are no SVG with an area, [`BakeError::Parameter`] for an
-/// option out of its range, [`BakeError::Limit`] for a drawing beyond a budget.
+/// option out of its range, [`BakeError::Limit`] for a drawing that asks for too much.
 pub fn bake(svg: &[u8], config: &BakeConfig, resources: &Resources) -> Result<VtexFile, BakeError> {
     bake_observed(svg, config, resources, &|_| ())
 }
 
-/// As [`bake`]; `observer` is told each [`Stage`] as it begins, for progress and timing.
+/// As [`bake`]. Calls `observer` with each [`Stage`] as it begins, for progress bars and timings.
 ///
 /// # Errors
 /// As [`bake`].

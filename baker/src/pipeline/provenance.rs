@@ -13,7 +13,7 @@ use crate::{
     raster::patch::SHAPE_FEATURE,
 };
 
-/// Where the file comes from.
+/// The provenance of the file.
 pub(super) fn provenance(
     drawing: &Drawing,
     placed: &[Placed],
@@ -35,7 +35,7 @@ pub(super) fn provenance(
     }
 }
 
-/// `None` of what is not painted.
+/// The report of an item; clips have none.
 fn report((item, placed): (&Item, &Placed)) -> Option<ShapeReport> {
     let (element, source) = match item {
         Item::Shape(shape) => {
@@ -84,7 +84,7 @@ fn preparation(note: Note) -> Preparation {
     }
 }
 
-/// Every option by the name the command line gives it, sorted.
+/// Every option by its name on the command line, sorted.
 fn options(config: &BakeConfig) -> Vec<(String, String)> {
     let list = |values: &[f32]| {
         let texts: Vec<String> = values.iter().map(f32::to_string).collect();

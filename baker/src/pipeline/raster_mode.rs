@@ -11,7 +11,13 @@ use crate::{
     },
 };
 
-/// The drawing as one raster of what its shapes show.
+/// The drawing as one image.
+///
+/// The drawing is baked as curves first, and the image is averaged from lookups in that file: it
+/// shows what a vector file would.
+///
+/// # Errors
+/// As [`assemble`].
 pub(crate) fn rastered(
     drawing: Drawing,
     config: &BakeConfig,

@@ -1,18 +1,16 @@
-//! The file's records: what the bake decided, as the format stores it.
+//! Filling the file's records from the results of all stages.
 
 use kurbo::{Rect, Shape as _};
 use vtex_format::{
     COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CurveLattice, FILL_EVEN_ODD, FILL_NON_ZERO,
     Image, LayerRecord, Meta, Outline, SamplerSettings, ShaderBlob, ShapeRecord, SpecKey, VtexFile,
-    Warning, WarningCode,
 };
 use vtex_shaders::{SpecParts, shader_blob, spec_key_from_parts};
 
+use super::warnings::warnings;
 use super::{layout::Layout, provenance::provenance};
 use crate::{
-    cells::{
-        CellInput, CellLists, packing::Packing, paint_table::PaintTable, sources::stored_curves,
-    },
+    cells::{CellInput, CellLists, paint_table::PaintTable, stored_outlines::stored_curves},
     config::BakeConfig,
     coverage::{
         grid::Lattice,
@@ -22,12 +20,11 @@ use crate::{
     },
     drawing::{Drawing, FillRule, Item, Paint},
     error::BakeError,
-    geometry::prepare::Note,
     number::to_f32,
     raster::canvas,
 };
 
-/// What the stages before have made.
+/// Results of the stages.
 #[derive(Debug)]
 pub(super) struct Stages<'a> {
     /// The drawing and its grid.
@@ -38,13 +35,13 @@ pub(super) struct Stages<'a> {
     pub(super) lists: CellLists,
     /// Texels of the lists' tiles.
     pub(super) tiles: Vec<u8>,
-    /// One a layer.
+    /// One for each layer.
     pub(super) layers: Vec<LayerRecord>,
     /// The paints that lists name.
     pub(super) paints: PaintTable,
 }
 
-/// The file, its mips apart: with `has_mips` image 0 is kept free for them.
+/// The file without mips. With `has_mips` image 0 is a placeholder for them.
 pub(super) fn file(
     mut drawing: Drawing,
     stages: Stages<'_>,
@@ -56,21 +53,15 @@ pub(super) fn file(
         layout,
         input,
         lists,
-        tiles,
-        layers,
         mut paints,
-    } = stages;
-    let Layout {
-        lattice,
-        scales,
-        placed,
         ..
-    } = layout;
+    } = stages;
+    let (lattice, scales) = (&layout.lattice, &layout.scales);
     let outline = config.outline_texels.map(|width_texels| Outline {
         width_texels,
         paint: paints.intern(&config.stroke_color.map_or(Paint::BLACK, Paint::Solid)),
     });
-    let warnings = warnings(&mut drawing, placed, input.packing, &lists);
+    let warnings = warnings(&mut drawing, input, &lists);
     let (curve_lattice, sources) = stored_curves(input, &lists, lattice, scales);
     let meta = meta(&drawing, config, lattice, curve_lattice, scales, outline);
     let (paints, gradients) = paints.into_records();
@@ -82,6 +73,7 @@ pub(super) fn file(
         entries: &lists.entries,
         canvas_mips: has_mips,
     })?;
+    let provenance = provenance(&drawing, input.placed, config, source_hash, warnings);
     Ok(VtexFile {
         meta,
         spec,
@@ -89,25 +81,25 @@ pub(super) fn file(
         paints,
         gradients,
         shapes: shape_records(input, lattice),
-        layers,
+        layers: stages.layers,
         cells: lists.words,
         entries: lists.entries,
-        tiles,
+        tiles: stages.tiles,
         curves: lists.curves,
         sources,
-        provenance: Some(provenance(&drawing, placed, config, source_hash, warnings)),
+        provenance: Some(provenance),
         images: images(drawing, has_mips),
     })
 }
 
-/// The shader's key and text.
+/// The spec key and the specialised shader.
 fn specialised(parts: &SpecParts<'_>) -> Result<(SpecKey, ShaderBlob), BakeError> {
     let spec = spec_key_from_parts(parts);
     let shader = shader_blob(&spec).map_err(|error| BakeError::Shader(error.to_string()))?;
     Ok((spec, shader))
 }
 
-/// The file's general record.
+/// The record of the file as a whole.
 fn meta(
     drawing: &Drawing,
     config: &BakeConfig,
@@ -132,7 +124,7 @@ fn meta(
     }
 }
 
-/// One record an item that is painted.
+/// One record for each item that paints.
 fn shape_records(input: &CellInput<'_>, lattice: &Lattice) -> Vec<ShapeRecord> {
     let record = |((item, &rank), &paint_or_image): ((&Placed, &u32), &u32)| {
         let segments = item.outline.segments().count();
@@ -153,6 +145,7 @@ fn shape_records(input: &CellInput<'_>, lattice: &Lattice) -> Vec<ShapeRecord> {
             },
             layer_or_image,
             paint,
+            // An outline that preparation has emptied has no box.
             bounds_uv: if segments == 0 {
                 [0.0; 4]
             } else {
@@ -173,61 +166,7 @@ fn bounds_uv(area: Rect, lattice: &Lattice) -> [f32; 4] {
     [u(area.x0), v(area.y0), u(area.x1), v(area.y1)]
 }
 
-/// Warnings of the drawing and of what happened since.
-fn warnings(
-    drawing: &mut Drawing,
-    placed: &[Placed],
-    packing: &Packing,
-    lists: &CellLists,
-) -> Vec<Warning> {
-    let mut warnings = std::mem::take(&mut drawing.warnings);
-    let canvas =
-        Rect::from_origin_size((0.0, 0.0), (drawing.canvas_size[0], drawing.canvas_size[1]));
-    for (item, placed) in drawing.items.iter().zip(placed) {
-        if let (Item::Shape(shape), PlacedKind::Shape { note, verdict, .. }) = (item, &placed.kind)
-            && *note == Note::Failed
-            && verdict.coverage == Coverage::Msdf
-        {
-            warnings.push(Warning {
-                code: WarningCode::PathFallback,
-                feature: "path".into(),
-                element: shape.element.clone(),
-                message: "overlaps in this outline could not be removed; its edges may be rough"
-                    .into(),
-                area: share(shape.outline.bounding_box(), canvas),
-            });
-        }
-    }
-    if packing.forced {
-        warnings.push(Warning {
-            code: WarningCode::MergeOverlap,
-            feature: "merge".into(),
-            element: String::new(),
-            message: "shapes that touch were forced into one layer".into(),
-            area: 0.0,
-        });
-    }
-    let told = |code| warnings.iter().any(|warning| warning.code == code);
-    let empty = lists.words.iter().all(|&word| word == 0);
-    if empty && !told(WarningCode::EmptyDrawing) {
-        warnings.push(Warning {
-            code: WarningCode::EmptyDrawing,
-            feature: "svg".into(),
-            element: String::new(),
-            message: "nothing in the drawing shows on its canvas".into(),
-            area: 0.0,
-        });
-    }
-    warnings
-}
-
-/// Share of the canvas that a box covers.
-fn share(of: Rect, canvas: Rect) -> f32 {
-    let shown = of.intersect(canvas);
-    to_f32(shown.area() / canvas.area()).clamp(0.0, 1.0)
-}
-
-/// A place for the canvas' mips, if there will be any, and the patches.
+/// The file's images: a placeholder for mips, if there will be any, and those of the drawing.
 fn images(drawing: Drawing, mips: bool) -> Vec<Image> {
     let patches = drawing.items.into_iter().filter_map(|item| match item {
         Item::Patch(patch) => Some(patch.image),

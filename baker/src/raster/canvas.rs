@@ -1,7 +1,7 @@
-//! The mip chain of the whole canvas: means of what lookups in the cells return.
+//! The canvas image: mips of the whole canvas, averaged from lookups in the finished cells.
 //!
-//! A mean of exact lookups shows nothing that they do not. Coverage composited as alpha does: where
-//! opaque shapes abut it lets the ground through.
+//! A rasteriser composites coverage as alpha, and where opaque shapes abut the background then
+//! shows through. A mean of exact point lookups cannot show what none of them returns.
 
 use rayon::prelude::*;
 use vtex_format::{AddressMode, Image, PaintRecord, VtexFile};
@@ -17,18 +17,21 @@ use crate::{
 
 /// The canvas in uv.
 const WHOLE: [f32; 4] = [0.0, 0.0, 1.0, 1.0];
-/// Halvings of the cells: a fine cell is then about a texel, and more cost more to make than they
-/// save in so few lookups. For 2, 3 and 4 the Tiger's bake takes 0.28, 0.26 and 0.29 s of CPU time.
+/// How often cells are halved for these lookups. A fine cell is then about one texel wide; dividing
+/// further costs more than so few lookups save. For 2, 3 and 4 the bake of the Tiger takes 0.28,
+/// 0.26 and 0.29 s of CPU time.
 const HALVINGS: u32 = 3;
-/// Segments that halved cells may hold together; drawings with more are halved less often.
+/// Segments that all fine cells may hold together. Drawings with more are halved less often.
 const MAX_SEGMENTS: f64 = 1e7;
-/// Segments that all lookups together may walk, a second or two; with more there are fewer lookups.
+/// Segments that all lookups together may test, which takes a second or two. Drawings with more get
+/// fewer lookups in a texel.
 const MAX_WALKED: f64 = 3e8;
-/// Lookups in a texel where colours meet, and what puts lookup i at (i, g i mod n) nths of the texel
-/// and half of one more. No two lie in a row or a column. The nearest of 32 are 5.7 apart, of 6.1 in
-/// the densest of all lattices.
+/// Number n of lookups in a texel that has more than one colour, and a generator g. Lookup i lies
+/// at `((i + 1/2) / n, (g i mod n + 1/2) / n)` of the texel, a rank-1 lattice: no two share a row
+/// or a column. The nearest of 32 are 5.7/32 apart; the best possible lattice would have 6.1/32.
 const LOOKUPS: [(u16, u16); 3] = [(32, 7), (16, 7), (8, 3)];
-/// What the mips of one drawing are made with.
+
+/// How much work goes into the mips of one drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Effort {
     halvings: u32,
@@ -37,10 +40,12 @@ struct Effort {
 }
 
 impl Effort {
-    /// A segment takes three words or less, and a halving about doubles the cells that hold it.
+    /// As much as the drawing's segments allow. A segment takes at most three words of the file,
+    /// and a halving about doubles the number of cells that hold it.
     fn of(file: &VtexFile, size: [u32; 2]) -> Self {
         let segments = file.curves.len() as f64 / 3.0;
         let fits = |halvings: &u32| segments * f64::from(1_u32 << halvings) <= MAX_SEGMENTS;
+        // As many halvings as fit the budget, then as many lookups as fit theirs.
         let halvings = (0..=HALVINGS).rev().find(fits).unwrap_or(0);
         let cells = file.cells.len().max(1) as f64 * f64::from(1_u32 << halvings);
         let walked = segments / cells * f64::from(size[0]) * f64::from(size[1]);
@@ -56,7 +61,8 @@ impl Effort {
     }
 }
 
-/// Texels of the canvas when its longer side gets `longer_side`: aspect kept, at least 1.
+/// Size of the canvas image if its longer side has `longer_side` texels: the aspect is kept, and no
+/// side is 0.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -67,7 +73,7 @@ pub(crate) fn canvas_texels(canvas_size: [f64; 2], longer_side: u32) -> [u32; 2]
     canvas_size.map(|side| (side * scale).round().clamp(1.0, f64::from(longer_side)) as u32)
 }
 
-/// Keeps image 0 free in a file whose cells are made before its mips.
+/// A placeholder for image 0 in a file that gets its mips last.
 pub(crate) fn no_mips() -> Image {
     Image {
         rect_uv: [0.0; 4],
@@ -76,9 +82,10 @@ pub(crate) fn no_mips() -> Image {
     }
 }
 
-/// Fills image 0 of `file`, which is [`no_mips`], with the chain of `size` texels.
+/// Puts the mips into image 0 of `file`, which is [`no_mips`] so far. Level 0 has `size` texels.
 pub(crate) fn add_mips(file: &mut VtexFile, size: [u32; 2], mode: Mode) {
     let mips = match file.images.as_slice() {
+        // Averaging the raster itself is exact and faster than lookups in it.
         [_, raster] if mode == Mode::Raster => raster_mips(raster, size),
         _ => cell_mips(file, size),
     };
@@ -87,7 +94,7 @@ pub(crate) fn add_mips(file: &mut VtexFile, size: [u32; 2], mode: Mode) {
     }
 }
 
-/// Of a canvas that is one raster.
+/// The mips of a canvas that is one raster.
 fn raster_mips(raster: &Image, size: [u32; 2]) -> Image {
     let stored = raster.mips.first().map_or(&[][..], Vec::as_slice);
     let texels = stored.as_chunks::<4>().0.par_iter();
@@ -100,13 +107,13 @@ fn raster_mips(raster: &Image, size: [u32; 2]) -> Image {
     mips::chain(finest.reduced(size), WHOLE)
 }
 
-/// Of what the cells show.
+/// The mips of what the cells show.
 fn cell_mips(file: &mut VtexFile, size: [u32; 2]) -> Image {
-    // Of a mask, lookups return alpha alone; its mips are the picture's.
+    // With `--mask` lookups return alpha alone, but mips hold the whole picture.
     let mask = std::mem::take(&mut file.meta.sampler.mask);
     let mut image = mips::chain(picture(file, size), WHOLE);
     file.meta.sampler.mask = mask;
-    // Steps of a few codes would turn gradients, which a patch may hold too, into bands.
+    // Merging colours would turn gradients into bands, and images may hold gradients too.
     let gradients = file.paints.iter().any(PaintRecord::is_gradient);
     if file.images.len() == 1 && !gradients {
         image
@@ -117,10 +124,10 @@ fn cell_mips(file: &mut VtexFile, size: [u32; 2]) -> Image {
     image
 }
 
-/// What the cells show, in linear light.
+/// What the cells show, in linear light, on `size` texels.
 pub(crate) fn picture(file: &VtexFile, size: [u32; 2]) -> LinearImage {
     let effort = Effort::of(file, size);
-    // The canvas as it is drawn, wherever on a surface the file then puts it.
+    // The canvas itself, without the texture matrix and address mode that place it on a surface.
     let options = PackOptions {
         filter: FilterMode::Point,
         address: Some([AddressMode::Clamp; 2]),
@@ -139,13 +146,13 @@ pub(crate) fn picture(file: &VtexFile, size: [u32; 2]) -> LinearImage {
     }
 }
 
-/// The canvas cut into texels.
+/// The texels of the canvas and how they are sampled.
 struct Texels<'a> {
     sampler: Sampler<'a>,
     size: [u32; 2],
-    /// Side of a lookup's footprint, by which patches are filtered.
+    /// Side of a lookup's footprint in texels. Only images use it.
     footprint_texels: f32,
-    /// Where lookups lie in a texel.
+    /// Where in a texel lookups lie.
     places: Vec<[f32; 2]>,
 }
 
@@ -156,7 +163,7 @@ impl<'a> Texels<'a> {
         Self {
             sampler,
             size,
-            // As far as lookups lie apart.
+            // The distance between lookups.
             footprint_texels: f32::from(count).sqrt().recip(),
             places: places.collect(),
         }
@@ -166,9 +173,10 @@ impl<'a> Texels<'a> {
         (0..self.size[0]).map(move |x| self.mean([x, y]))
     }
 
-    /// Mean colour of a texel in linear light, premultiplied.
+    /// Mean colour of a texel: linear light, premultiplied.
     fn mean(&self, texel: [u32; 2]) -> [f32; 4] {
         let uv = |t: [f32; 2]| [0, 1].map(|i| (texel[i] as f32 + t[i]) / self.size[i] as f32);
+        // Most texels have one colour, which one look at the fine cell tells.
         if let Some(color) = self.sampler.flat_color(uv([0.0; 2]), uv([1.0; 2])) {
             return color;
         }

@@ -1,18 +1,20 @@
-//! How fine a raster has to be: no finer than its own detail.
+//! Halving a raster that is finer than its own detail.
 
 use rayon::prelude::*;
 
 use crate::raster::{mips::LinearImage, texel};
 
-/// Codes of a stored channel by which a coarser raster, interpolated as lookups do, may differ.
+/// Codes by which a stored channel of the coarser raster, interpolated as lookups do, may differ.
 const MAX_ERROR: u8 = 2;
-/// Texels of a side below which nothing is gained.
+/// Texels of a side below which halving gains nothing.
 const MIN_SIDE: u32 = 16;
 
-/// `image`, halved as long as nobody could tell: soft shadows and blurs need few texels.
+/// The image, halved as long as nobody could see it. Soft shadows and blurs need few texels.
 pub(crate) fn fitted(image: LinearImage) -> LinearImage {
     let mut fitted = image;
     while fitted.size.iter().all(|&side| side >= MIN_SIDE) {
+        // Compared with the level above and not with the original: every level is a halving of the
+        // last.
         let half = fitted.reduced(fitted.size.map(|side| side.div_ceil(2)));
         if !stands_for(&half, &fitted) {
             break;
@@ -22,7 +24,7 @@ pub(crate) fn fitted(image: LinearImage) -> LinearImage {
     fitted
 }
 
-/// Whether lookups in `coarse` at the texels of `fine` return about those.
+/// Whether lookups in `coarse` return nearly the texels of `fine`.
 fn stands_for(coarse: &LinearImage, fine: &LinearImage) -> bool {
     let rows = fine.texels.par_chunks_exact(fine.size[0] as usize);
     rows.enumerate().all(|(y, row)| {
@@ -35,8 +37,8 @@ fn stands_for(coarse: &LinearImage, fine: &LinearImage) -> bool {
     })
 }
 
-/// The middle of texel `index` among `coarse` texels: the one at or before it, and how far beyond
-/// its middle.
+/// Where the centre of fine texel `index` lies among the coarse ones: between which two, and the
+/// share of the second. At the ends both are the same texel.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -47,6 +49,7 @@ fn place(index: usize, fine: u32, coarse: u32) -> (usize, usize, f32) {
     let at = (index as f32 + 0.5) * coarse as f32 / fine as f32 - 0.5;
     let last = coarse as usize - 1;
     let low = at.floor().max(0.0) as usize;
+    // Before the first centre lookups clamp to it.
     let share = (at - at.floor()) * f32::from(u8::from(at > 0.0));
     (low.min(last), (low + 1).min(last), share)
 }

@@ -1,11 +1,11 @@
-//! Mip chains in linear light, premultiplied.
+//! Mip chains by exact area averages.
 
 use rayon::prelude::*;
 use vtex_format::Image;
 
 use crate::raster::texel;
 
-/// Texels in linear light, premultiplied by alpha.
+/// An image in linear light, premultiplied by alpha.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LinearImage {
     /// Columns and rows, at least 1 each.
@@ -15,8 +15,8 @@ pub(crate) struct LinearImage {
 }
 
 impl LinearImage {
-    /// The area average at another, not larger size. Weights are exact for any ratio, so odd
-    /// sides lose no row and the chain never drifts.
+    /// The image averaged down to `size`, which must not be larger. Weights are exact for any ratio
+    /// of sizes: odd sides lose no row, and the picture does not drift along the chain.
     pub(crate) fn reduced(&self, size: [u32; 2]) -> Self {
         let columns = spans(self.size[0], size[0]);
         let rows = spans(self.size[1], size[1]);
@@ -24,6 +24,8 @@ impl LinearImage {
         let texels = rows
             .par_iter()
             .flat_map_iter(|row| {
+                // First down the rows, then along the result: far fewer multiplications than texel
+                // by texel.
                 let column_sums = row_average(&self.texels, width, row);
                 columns
                     .iter()
@@ -33,7 +35,7 @@ impl LinearImage {
         Self { size, texels }
     }
 
-    /// Mirrors it along x, along y.
+    /// Mirrors it along x and along y, as told.
     pub(crate) fn mirror(&mut self, [along_x, along_y]: [bool; 2]) {
         let width = self.size[0] as usize;
         if along_x {
@@ -47,12 +49,12 @@ impl LinearImage {
     }
 }
 
-/// Where one texel's extent lies among the finer ones along an axis.
+/// The finer texels that one coarse texel averages along an axis.
 #[derive(Debug)]
 struct Span {
-    /// The first finer texel it touches.
+    /// The first of them.
     first: usize,
-    /// Share that each finer texel has in it; their sum is 1.
+    /// The weight of each; their sum is 1.
     weights: Vec<f32>,
 }
 
@@ -64,7 +66,8 @@ fn spans(fine: u32, coarse: u32) -> Vec<Span> {
     let (fine, coarse) = (u64::from(fine), u64::from(coarse));
     (0..coarse)
         .map(|i| {
-            // Extents in units of 1 / coarse of a finer texel: all integers.
+            // In units of 1/coarse of a finer texel all borders are integers, so overlaps are
+            // exact.
             let (start, end) = (i * fine, (i + 1) * fine);
             let (first, last) = (start / coarse, (end - 1) / coarse);
             let weights = (first..=last).map(|k| {
@@ -105,7 +108,8 @@ fn add(sum: &mut [f32; 4], texel: &[f32; 4], weight: f32) {
     }
 }
 
-/// A stored image with its whole chain. Each level is made from the unrounded one above it.
+/// An image for the file with all its levels. Each is made from the level above it before that is
+/// rounded to bytes, so errors do not add up.
 pub(crate) fn chain(level0: LinearImage, rect_uv: [f32; 4]) -> Image {
     let size = level0.size;
     let mut mips = vec![stored(&level0)];

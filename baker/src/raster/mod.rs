@@ -1,4 +1,7 @@
-//! Texels: patches, images that keep theirs, and the canvas' mips.
+//! Images: patches, embedded images, and the mips of the canvas.
+//!
+//! All averaging is done in linear light, premultiplied by alpha: there a mean of colours is the
+//! mean of their light.
 
 pub(crate) mod canvas;
 mod detail;

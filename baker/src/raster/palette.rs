@@ -1,22 +1,22 @@
-//! Fewer colours for mips of flat drawings.
+//! Merging near colours in mips of flat drawings, so that they compress better.
 //!
-//! Texels on edges take any mixture of their shapes' colours, thousands of which occur once or
-//! twice and differ by a code or two. Giving such neighbours one colour repeats texels, which
-//! packs well. On the Tiger levels 0, 1 and 2 keep 57.7, 55.7 and 53.7 dB against themselves, and
-//! take 66, 28 and 13 KB instead of 88, 37 and 16.
+//! Texels on edges are mixtures of the colours of shapes. Thousands of mixtures occur once or twice
+//! and differ by a code or two. With one colour for such neighbours texels repeat, and repetition
+//! compresses. On the Tiger levels 0, 1 and 2 take 66, 28 and 13 KB instead of 88, 37 and 16, at
+//! 57.7, 55.7 and 53.7 dB against the exact levels.
 
-/// Most codes by which a channel may change.
+/// Codes by which a channel may change at most.
 const MAX_CHANGE: u8 = 2;
 
-/// Replaces rare colours of RGBA texels by frequent ones whose channels all lie within
-/// [`MAX_CHANGE`]. Alpha stays what it is where that is 0 or 255, so that what was opaque is.
+/// Replaces rare colours of RGBA texels by frequent ones within [`MAX_CHANGE`] in every channel. An
+/// alpha of 0 or 255 never changes: opaque stays opaque and empty stays empty.
 pub(crate) fn join_near_colors(texels: &mut [u8]) {
     let (texels, _) = texels.as_chunks_mut::<4>();
     let colors = counted(texels);
     let kept = joined(&colors);
     let (mut last, mut replacement) = ([0; 4], None);
     for texel in texels {
-        // Texels of one colour stand in runs.
+        // Texels of one colour come in runs: search once for each run.
         if *texel != last || replacement.is_none() {
             last = *texel;
             let place = colors.binary_search_by_key(texel, |&(color, _)| color);
@@ -26,7 +26,7 @@ pub(crate) fn join_near_colors(texels: &mut [u8]) {
     }
 }
 
-/// The colours that occur and how often, ascending.
+/// The colours that occur, ascending, with how often each occurs.
 fn counted(texels: &[[u8; 4]]) -> Vec<([u8; 4], usize)> {
     let mut sorted = texels.to_vec();
     sorted.sort_unstable();
@@ -34,12 +34,12 @@ fn counted(texels: &[[u8; 4]]) -> Vec<([u8; 4], usize)> {
     runs.map(|run| (run[0], run.len())).collect()
 }
 
-/// What becomes of each colour. The most frequent are decided first and kept unless one that was
-/// kept before is near.
+/// The replacement of each colour. Frequent colours are decided first; a colour is kept unless one
+/// that was kept before is near.
 fn joined(colors: &[([u8; 4], usize)]) -> Vec<[u8; 4]> {
     let mut order: Vec<usize> = (0..colors.len()).collect();
     order.sort_by_key(|&place| std::cmp::Reverse(colors[place].1));
-    // Kept colours with the order they were kept in, by their second channel.
+    // Kept colours by their second channel, each with the order in which it was kept.
     let mut kept: Vec<Vec<(usize, [u8; 4])>> = vec![Vec::new(); 256];
     let mut result: Vec<[u8; 4]> = colors.iter().map(|&(color, _)| color).collect();
     for (rank, place) in order.into_iter().enumerate() {
@@ -55,6 +55,7 @@ fn joined(colors: &[([u8; 4], usize)]) -> Vec<[u8; 4]> {
     result
 }
 
+/// Whether texels of colour `a` may get colour `b`.
 fn may_join(a: [u8; 4], b: [u8; 4]) -> bool {
     let near = a.iter().zip(&b).all(|(a, b)| a.abs_diff(*b) <= MAX_CHANGE);
     let extreme = |alpha: u8| matches!(alpha, 0 | u8::MAX);

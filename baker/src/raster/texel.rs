@@ -1,10 +1,13 @@
-//! The two encodings of texels: tiny-skia's and the file's.
+//! The two encodings of texels, tiny-skia's and the file's, to and from linear light.
+//!
+//! Both have sRGB-encoded colour and premultiplied alpha, in different order: tiny-skia multiplies
+//! the encoded colour, the file encodes the multiplied light.
 
 use std::sync::LazyLock;
 
 use crate::drawing::color::{decode, encode};
 
-/// A value in \[0, 1\] as the nearest of 256 codes; NaN gives 0.
+/// The nearest of 256 codes for a value in \[0, 1\]; NaN gives 0.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -14,16 +17,17 @@ pub(crate) fn unorm8(value: f32) -> u8 {
     (value * 255.0).round() as u8
 }
 
-/// Steps of [`Tables::guess`]. Fine enough that a step spans at most one code: the steepest slope
-/// of [`encode`] is 12.92 * 255 codes a unit.
+/// Steps of [`Tables::guess`]. With this many a step spans less than one code, because the steepest
+/// slope of [`encode`] is 12.92 * 255 codes a unit.
 const GUESS_STEPS: usize = 4096;
 
+/// Tables with which encoding needs no power function.
 struct Tables {
     /// `decode(code / 255)`.
     decode: [f32; 256],
     /// Smallest linear value that encodes to each code.
     threshold: [f32; 257],
-    /// Code of the lower end of each step.
+    /// Code of the lower end of each step, to start the search from.
     guess: Vec<u8>,
 }
 
@@ -32,6 +36,7 @@ static TABLES: LazyLock<Tables> = LazyLock::new(|| {
     let mut threshold = [f32::INFINITY; 257];
     for (code, (value, first)) in (0_u16..256).zip(decode_table.iter_mut().zip(&mut threshold)) {
         *value = decode(f32::from(code) / 255.0);
+        // Rounding to the nearest code changes half way between two codes, on the encoded side.
         *first = decode(((f32::from(code) - 0.5) / 255.0).max(0.0));
     }
     threshold[0] = f32::NEG_INFINITY;
@@ -45,12 +50,12 @@ static TABLES: LazyLock<Tables> = LazyLock::new(|| {
     }
 });
 
-/// Linear light of an sRGB code.
+/// The linear light of an sRGB code.
 pub(crate) fn decode_u8(code: u8) -> f32 {
     TABLES.decode[usize::from(code)]
 }
 
-/// Nearest sRGB code of a linear value; values outside \[0, 1\] are clamped, NaN gives 0.
+/// The nearest sRGB code of a linear value. Values outside \[0, 1\] are clamped; NaN gives 0.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -59,6 +64,7 @@ pub(crate) fn decode_u8(code: u8) -> f32 {
 pub(crate) fn encode_u8(linear: f32) -> u8 {
     let tables = &*TABLES;
     let linear = linear.clamp(0.0, 1.0);
+    // The guess is off by one code at most, so the loops hardly run.
     let step = ((linear * GUESS_STEPS as f32) as usize).min(GUESS_STEPS - 1);
     let mut code = tables.guess[step];
     while linear >= tables.threshold[usize::from(code) + 1] {
@@ -70,7 +76,7 @@ pub(crate) fn encode_u8(linear: f32) -> u8 {
     code
 }
 
-/// tiny-skia's texel (sRGB-encoded colour times alpha, 8 bits) as linear light, premultiplied.
+/// A texel of tiny-skia's (sRGB-encoded colour times alpha) as linear light, premultiplied.
 pub(crate) fn linear_from_skia(texel: [u8; 4]) -> [f32; 4] {
     let [r, g, b, a] = texel;
     if a == 0 {
@@ -80,6 +86,7 @@ pub(crate) fn linear_from_skia(texel: [u8; 4]) -> [f32; 4] {
         return [decode_u8(r), decode_u8(g), decode_u8(b), 1.0];
     }
     let alpha = f32::from(a) / 255.0;
+    // Undo the multiplication before decoding: the transfer function is not linear.
     let channel = |c: u8| alpha * decode((f32::from(c) / f32::from(a)).min(1.0));
     [channel(r), channel(g), channel(b), alpha]
 }
@@ -96,7 +103,7 @@ pub(crate) fn skia_from_linear(texel: [f32; 4]) -> [u8; 4] {
     [channel(r), channel(g), channel(b), code]
 }
 
-/// Linear light, premultiplied, as stored in a [`vtex_format::Image`].
+/// Premultiplied linear light as a texel of a [`vtex_format::Image`].
 pub(crate) fn stored_from_linear(texel: [f32; 4]) -> [u8; 4] {
     let [r, g, b, a] = texel;
     [encode_u8(r), encode_u8(g), encode_u8(b), unorm8(a)]

@@ -1,4 +1,8 @@
-//! What painting a subtree asks of memory and time, known before resvg takes any of it.
+//! Memory and time that resvg needs to paint a subtree, estimated before it starts.
+//!
+//! A few lines of SVG can ask for gigabytes or hours: a filter on a huge region, a mask in a mask
+//! in a mask, a pattern of patterns. Too much for the whole file is an error; too much for one
+//! patch makes the patch coarser.
 
 use kurbo::Affine;
 use usvg::filter::{Filter, Kind};
@@ -6,29 +10,33 @@ use usvg::{Group, ImageKind, Node, Paint, Pattern};
 
 use crate::svg::path::{affine, transformed_bounds};
 
-/// Nanoseconds that resvg spends on a texel of most filter primitives; a blur takes the longest.
+/// Nanoseconds that resvg spends on a texel of a filter primitive. A blur takes the longest of the
+/// ordinary ones.
 const PRIMITIVE_NS: f64 = 60.0;
-/// On a texel of `feTurbulence`, for each octave.
+/// Nanoseconds on a texel of `feTurbulence`, for each octave.
 const OCTAVE_NS: f64 = 100.0;
-/// On a sample of the window of `feMorphology` or `feConvolveMatrix`. resvg visits all of them.
+/// Nanoseconds on a sample of the window of `feMorphology` or `feConvolveMatrix`. resvg visits
+/// every sample of the window for every texel.
 const SAMPLE_NS: f64 = 2.0;
-/// Canvases along a side that a filter region covers at most: resvg makes no larger layers.
+/// Largest side of a filter region, in canvases: resvg makes no larger layers.
 const MAX_REGION_CANVASES: f64 = 5.0;
 
-/// Nanoseconds of one core for the filters of one patch. Past it the patch gets coarser.
+/// Nanoseconds that the filters of one patch may take on one core. A patch that needs more gets
+/// coarser.
 const MAX_PATCH_FILTER_NS: f64 = 5e9;
 
-/// Needs of a subtree, to be scaled by the texels it is painted at.
+/// What a subtree needs, for one texel in a square user unit of the canvas. The caller scales it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Cost {
-    /// Layers of the subtree's size that exist at the same time.
+    /// Most layers of the subtree's size that exist at the same time.
     pub(crate) layers: f64,
-    /// Area of the pattern tiles that exist at the same time, in square user units of the canvas.
+    /// Largest area of pattern tiles that exist at the same time, in square user units of the
+    /// canvas.
     pub(crate) pattern_area: f64,
-    /// Nanoseconds for all filters, for each texel in a square user unit of the canvas.
+    /// Nanoseconds for all filters without windows.
     pub(crate) filter_ns: f64,
-    /// Nanoseconds for filters whose windows grow with the scale, for each square of the texels
-    /// in a square user unit.
+    /// Nanoseconds for filters with a window. The window grows with the scale as well, so their
+    /// time grows with the square of the number of texels.
     pub(crate) window_ns: f64,
 }
 
@@ -36,7 +44,7 @@ pub(crate) struct Cost {
 type Canvas = [f64; 2];
 
 impl Cost {
-    /// Of a node whose parent has the given transform.
+    /// The cost of a node, by the transform of its parent.
     pub(crate) fn of_node(node: &Node, canvas_from_parent: Affine, canvas: Canvas) -> Self {
         match node {
             Node::Group(group) => Self::of_group(group, canvas_from_parent, canvas),
@@ -58,6 +66,7 @@ impl Cost {
         }
     }
 
+    /// The cost of a group, by the transform of its parent.
     pub(crate) fn of_group(group: &Group, canvas_from_parent: Affine, canvas: Canvas) -> Self {
         let canvas_from_group = canvas_from_parent * affine(group.transform());
         let children = group
@@ -65,7 +74,8 @@ impl Cost {
             .iter()
             .map(|n| Self::of_node(n, canvas_from_group, canvas));
         let mut cost = children.fold(Self::default(), Self::beside);
-        // A mask or clip path is painted while the group's own layer waits.
+        // A mask or clip path is painted while the layer of its group waits, and so is each mask on
+        // a mask.
         if let Some(mask) = group.mask() {
             let links = std::iter::successors(Some(mask), |m| m.mask()).count();
             let inner = Self::of_group(mask.root(), canvas_from_group, canvas);
@@ -77,13 +87,14 @@ impl Cost {
                 Self::of_group(clip.root(), canvas_from_group, canvas).plus_layers(links as f64),
             );
         }
-        // Filters keep named results besides source and result.
+        // A filter keeps the result of every primitive, its source and its result.
         let filter_layers: usize = group
             .filters()
             .iter()
             .map(|f| f.primitives().len() + 2)
             .max()
             .unwrap_or(0);
+        // An isolated group is painted on a layer of its own.
         let own = if group.should_isolate() { 1.0 } else { 0.0 };
         for filter in group.filters() {
             cost = cost.plus_filter(filter, canvas_from_group, canvas);
@@ -91,7 +102,7 @@ impl Cost {
         cost.plus_layers(own + filter_layers as f64)
     }
 
-    /// Nanoseconds for filters and for their windows at `scale` texels a user unit.
+    /// Nanoseconds for filters, and for those with windows, at `scale` texels along a user unit.
     pub(crate) fn filter_work_ns(&self, scale: f64) -> [f64; 2] {
         [
             self.filter_ns * scale.powi(2),
@@ -99,7 +110,8 @@ impl Cost {
         ]
     }
 
-    /// How many times `base` texels a user unit the filters of one patch can be painted at.
+    /// The largest multiple of `base` texels along a user unit at which the filters of one patch
+    /// stay within their time.
     pub(crate) fn filter_density(&self, base: f64) -> f64 {
         let [filters, windows] = self
             .filter_work_ns(base)
@@ -123,14 +135,14 @@ impl Cost {
         let area = f64::from(rect.width()) * scale_x * f64::from(rect.height()) * scale_y;
         let canvas_from_tile = Affine::scale_non_uniform(scale_x, scale_y);
         let inner = Self::of_group(pattern.root(), canvas_from_tile, canvas);
-        // This tile waits while those of patterns in it are painted.
+        // This tile waits while the tiles of patterns in it are painted.
         Self {
             pattern_area: inner.pattern_area + area,
             ..inner
         }
     }
 
-    /// Of two things that are painted one after the other: memory is used again, time is not.
+    /// The cost of two things that are painted one after the other: they share memory but not time.
     fn beside(self, other: Self) -> Self {
         Self {
             layers: self.layers.max(other.layers),
@@ -143,6 +155,7 @@ impl Cost {
     fn plus_filter(self, filter: &Filter, canvas_from_group: Affine, canvas: Canvas) -> Self {
         let rect = filter.rect().to_rect();
         let region = transformed_bounds(rect, canvas_from_group);
+        // The region is painted on layers, whose size resvg bounds.
         let area = region.width().min(MAX_REGION_CANVASES * canvas[0])
             * region.height().min(MAX_REGION_CANVASES * canvas[1]);
         let [a, b, c, d, _, _] = canvas_from_group.as_coeffs();
@@ -160,6 +173,7 @@ impl Cost {
                     let height = 2.0 * f64::from(fe.radius_y().get()) * scale_y;
                     (SAMPLE_NS, (width * height).min(area))
                 }
+                // `PRIMITIVE_NS` covers all others.
                 _ => (0.0, 0.0),
             };
             cost.filter_ns += area * (texel_ns + PRIMITIVE_NS);

@@ -1,4 +1,6 @@
-//! SVG to a [`Plan`]: what is geometry already, and what resvg has to paint.
+//! From SVG text to a [`Plan`]: shapes in painter's order, and subtrees that resvg has to paint.
+//!
+//! [`source`] turns bytes into usvg's tree, within limits. [`walk`] goes through the tree.
 
 mod cost;
 mod path;

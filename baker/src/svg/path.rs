@@ -1,14 +1,14 @@
-//! usvg's paths and transforms as kurbo's.
+//! usvg's paths and transforms in kurbo's types.
 
 use kurbo::{Affine, BezPath, PathEl, Point, Rect};
 use usvg::tiny_skia_path::{self, PathSegment};
 
-/// f32 transform to f64.
+/// The transform in f64.
 pub(crate) fn affine(t: usvg::Transform) -> Affine {
     Affine::new([t.sx, t.ky, t.kx, t.sy, t.tx, t.ty].map(f64::from))
 }
 
-/// Bounds after `transform`.
+/// The box of a transformed rectangle.
 pub(crate) fn transformed_bounds(rect: usvg::Rect, transform: Affine) -> Rect {
     let [left, top, right, bottom] =
         [rect.left(), rect.top(), rect.right(), rect.bottom()].map(f64::from);
@@ -19,7 +19,7 @@ fn point(p: tiny_skia_path::Point) -> Point {
     Point::new(f64::from(p.x), f64::from(p.y))
 }
 
-/// The same path, curve for curve.
+/// The same path, segment by segment.
 pub(crate) fn bez_path(path: &tiny_skia_path::Path) -> BezPath {
     path.segments()
         .map(|segment| match segment {
@@ -32,7 +32,8 @@ pub(crate) fn bez_path(path: &tiny_skia_path::Path) -> BezPath {
         .collect()
 }
 
-/// Closes every subpath, as filling does (SVG 2 sec. 13.4), and drops those that are one point.
+/// The path with every subpath closed, as filling does (SVG 2 sec. 13.4), and without subpaths of
+/// one point.
 pub(crate) fn close_subpaths(path: &BezPath) -> BezPath {
     let mut closed = BezPath::new();
     let mut open = false;
@@ -53,6 +54,7 @@ pub(crate) fn close_subpaths(path: &BezPath) -> BezPath {
                 open = false;
             }
             _ => {
+                // Emitted only now, so a move without drawing leaves nothing behind.
                 if let Some(p) = pending_move.take() {
                     closed.move_to(p);
                 }

@@ -1,42 +1,42 @@
-//! What an SVG comes to: geometry, and subtrees that resvg has to paint.
+//! The result of the walk.
 
 use kurbo::{Affine, Rect};
 
 use crate::drawing::{ClipOutline, Shape, tree::Tree};
 
-/// A tree sorted into shapes and subtrees to rasterise, in painter's order.
+/// A drawing in which subtrees still wait to be painted.
 #[derive(Debug)]
 pub(crate) struct Plan<'a> {
     /// Width and height of the canvas in user units.
     pub(crate) canvas_size: [f64; 2],
     /// Back to front.
     pub(crate) steps: Vec<Step<'a>>,
-    /// How they belong together; items are steps.
+    /// The groups that hold them. Its items are indices of steps.
     pub(crate) tree: Tree,
 }
 
-/// One thing to paint.
+/// One element of the plan.
 #[derive(Debug)]
 pub(crate) enum Step<'a> {
-    /// Geometry with a paint.
+    /// A shape.
     Shape(Shape),
-    /// Where a group may show.
+    /// An outline that clips a group.
     Clip(ClipOutline),
-    /// A subtree for resvg.
+    /// A subtree that becomes an image.
     Raster(Subtree<'a>),
 }
 
-/// A node that is painted as a whole by resvg.
+/// A node that becomes one image.
 #[derive(Debug)]
 pub(crate) struct Subtree<'a> {
     /// The node.
     pub(crate) node: &'a usvg::Node,
-    /// From the space of the node's parent.
+    /// Transform from the space of the node's parent to the canvas.
     pub(crate) canvas_from_parent: Affine,
-    /// What it may touch, in canvas space; not empty, may reach outside the canvas.
+    /// Box of what it may paint, in canvas space. It meets the canvas and may reach beyond it.
     pub(crate) bounds: Rect,
     /// Why it is not geometry.
     pub(crate) feature: &'static str,
-    /// `id` of the element or its nearest named ancestor, may be empty.
+    /// `id` of the element or of its nearest ancestor that has one; may be empty.
     pub(crate) element: String,
 }

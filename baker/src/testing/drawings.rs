@@ -1,6 +1,6 @@
-//! Drawings for tests: of an SVG, or by hand.
+//! Drawings for tests, from an SVG or made by hand.
 
-use kurbo::BezPath;
+use kurbo::{BezPath, PathEl};
 use vtex_format::{Gradient, VtexFile};
 
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
     oracle::gradient,
 };
 
-/// A shape by hand.
+/// A shape with a solid paint.
 pub(crate) fn shape(outline: BezPath, fill_rule: FillRule, color: [f32; 4]) -> Item {
     Item::Shape(Shape {
         outline,
@@ -21,7 +21,7 @@ pub(crate) fn shape(outline: BezPath, fill_rule: FillRule, color: [f32; 4]) -> I
     })
 }
 
-/// The colour of a paint that has one.
+/// The colour of a solid paint.
 pub(crate) fn solid(paint: &Paint) -> [f32; 4] {
     match paint {
         Paint::Solid(color) => *color,
@@ -29,7 +29,7 @@ pub(crate) fn solid(paint: &Paint) -> [f32; 4] {
     }
 }
 
-/// The colour of any paint at a place of the canvas, straight.
+/// The colour of a paint at a uv, with straight alpha.
 pub(crate) fn paint_at(paint: &Paint, uv: [f64; 2]) -> [f32; 4] {
     match paint {
         Paint::Solid(color) => *color,
@@ -37,7 +37,7 @@ pub(crate) fn paint_at(paint: &Paint, uv: [f64; 2]) -> [f32; 4] {
     }
 }
 
-/// The colour of a file's paint at a place of the canvas, straight.
+/// The colour of a file's paint at a uv, with straight alpha.
 pub(crate) fn stored_at(file: &VtexFile, index: u32, uv: [f64; 2]) -> [f32; 4] {
     let record = &file.paints[index as usize];
     let stored = Gradient::of(record, &file.gradients);
@@ -46,7 +46,22 @@ pub(crate) fn stored_at(file: &VtexFile, index: u32, uv: [f64; 2]) -> [f32; 4] {
     })
 }
 
-/// An SVG as the bake sees it, without fonts.
+/// The drawing of an SVG, without fonts.
 pub(crate) fn drawing_of(svg: &[u8], config: &BakeConfig) -> Drawing {
     crate::pipeline::draw(svg, config, &Resources::default(), &|_| ()).unwrap()
+}
+
+/// The outline with every contour closed.
+pub(crate) fn closed(outline: &BezPath) -> BezPath {
+    let mut out = BezPath::new();
+    for element in outline.elements() {
+        if matches!(element, PathEl::MoveTo(_)) && !out.elements().is_empty() {
+            out.close_path();
+        }
+        out.push(*element);
+    }
+    if !out.elements().is_empty() {
+        out.close_path();
+    }
+    out
 }

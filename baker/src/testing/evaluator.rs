@@ -1,4 +1,4 @@
-//! Point lookups by the letter of docs/format.md sec. 3, and the painter they are held against.
+//! Point lookups exactly as docs/format.md sec. 3 says, and exact pictures to compare them with.
 
 #![expect(
     clippy::cast_possible_truncation,
@@ -15,7 +15,7 @@ use vtex_testing::srgb::{decode, encode};
 use crate::{
     drawing::Item,
     geometry::Region,
-    testing::{Random, solid},
+    testing::{Random, closed, solid},
 };
 
 /// Point lookups in a file without images, in sRGB-encoded premultiplied colour.
@@ -86,7 +86,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Puts a straight-alpha colour behind a premultiplied one.
+/// Composites a straight-alpha colour behind a premultiplied one.
 pub(crate) fn under(out: &mut [f64; 4], color: [f32; 4]) {
     let shown = (1.0 - out[3]) * f64::from(color[3]);
     for i in 0..3 {
@@ -95,7 +95,7 @@ pub(crate) fn under(out: &mut [f64; 4], color: [f32; 4]) {
     out[3] += shown;
 }
 
-/// The brute-force painter: exact winding of every shape at every point.
+/// The exact colour at any point, from the windings of all shapes there. Without groups.
 pub(crate) fn paint_exactly(
     items: &[Item],
     canvas_size: [f64; 2],
@@ -127,20 +127,6 @@ pub(crate) fn paint_exactly(
         }
         out
     }
-}
-
-fn closed(outline: &kurbo::BezPath) -> kurbo::BezPath {
-    let mut out = kurbo::BezPath::new();
-    for element in outline.elements() {
-        if matches!(element, kurbo::PathEl::MoveTo(_)) && !out.elements().is_empty() {
-            out.close_path();
-        }
-        out.push(*element);
-    }
-    if !out.elements().is_empty() {
-        out.close_path();
-    }
-    out
 }
 
 /// Averages jittered point samples over white in linear light: RGB bytes, row by row.
@@ -186,9 +172,9 @@ pub(crate) fn psnr(a: &[u8], b: &[u8]) -> f64 {
     20.0 * 255.0_f64.log10() - 10.0 * (sum / a.len() as f64).log10()
 }
 
-/// Writes an RGB picture to the folder named by `VTEX_PICTURES`; nothing without it.
+/// Writes an RGB picture to the folder that `VTEX_DUMP` names, if it is set.
 pub(crate) fn write_png(name: &str, size: [u32; 2], rgb: &[u8]) {
-    let Some(folder) = std::env::var_os("VTEX_PICTURES") else {
+    let Some(folder) = std::env::var_os("VTEX_DUMP") else {
         return;
     };
     let rgba: Vec<u8> = rgb

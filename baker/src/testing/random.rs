@@ -22,6 +22,16 @@ impl Random {
         low + (high - low) * (self.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
+    /// Uniform in \[0, 1).
+    pub(crate) fn unit(&mut self) -> f64 {
+        self.within(0.0, 1.0)
+    }
+
+    /// A uniform index of a list of `len`.
+    pub(crate) fn index(&mut self, len: usize) -> usize {
+        usize::try_from(self.below(len as u64)).unwrap()
+    }
+
     /// Uniform below `count`.
     pub(crate) fn below(&mut self, count: u64) -> u64 {
         self.next_u64() % count

@@ -7,7 +7,7 @@ use vtex_testing::{Corpus, slow_only};
 
 use crate::{BakeConfig, Mode, Resources, bake, pipeline::draw};
 
-/// What usvg or resvg themselves do not finish within a minute; only a process limit helps.
+/// Files that usvg or resvg do not finish within a minute. Only a limit on the process helps.
 const ENDLESS: [&str; 4] = [
     "07_entity_quadratic.svg",
     "13_pattern_bomb.svg",

@@ -1,4 +1,4 @@
-//! Curve cells against the painter, through the evaluator's twin on packed words.
+//! Curves against exact windings, looked up by the evaluator's twin.
 
 use kurbo::{Line, Point, Rect, Shape as _};
 use vtex_format::VtexFile;
@@ -18,7 +18,7 @@ use crate::{
     testing::{Random, drawing_of, solid},
 };
 
-/// Lookups this near an edge, in steps, may fall on either side: a tenth of a pixel at zoom 64.
+/// A lookup this near to an edge, in steps, may fall on either side: a tenth of a pixel at zoom 64.
 const NEAR_STEPS: f64 = 0.1 / 32.0;
 
 fn config() -> BakeConfig {
@@ -89,7 +89,7 @@ fn compare(drawing: &Drawing, file: &VtexFile, config: &BakeConfig, points: u32)
 }
 
 #[test]
-fn curve_cells_show_what_the_painter_paints() {
+fn curve_cells_show_the_front_shape() {
     let names = [
         "paper5/5_tiger__svgpan__tiger.svg",
         "paper5/1_figures_text__openclipart-svg__facilement_inflammable_y_01.svg",

@@ -1,4 +1,4 @@
-//! Gradients of baked files against resvg, one feature a case.
+//! Gradients of baked files against resvg, one feature in each case.
 
 use std::sync::Arc;
 
@@ -40,8 +40,8 @@ fn resvg_picture(svg: &str) -> Pixmap {
     pixmap
 }
 
-/// The share of pixels at whose centre a lookup has another colour than resvg's picture, which is to
-/// be painted without anti-aliasing.
+/// The share of pixels at whose centre a lookup differs from resvg's picture. resvg must paint it
+/// without anti-aliasing.
 fn wrong_share(svg: &str) -> f64 {
     let file = baked(svg);
     assert_ne!(file.spec.features & Features::GRADIENTS, 0, "{svg}");
@@ -69,7 +69,7 @@ fn wrong_share(svg: &str) -> f64 {
 const STOPS: &str = "<stop stop-color='#f40'/><stop offset='.4' stop-color='#0a8' \
      stop-opacity='.5'/><stop offset='1' stop-color='#206'/>";
 
-/// What each case adds to a gradient with [`STOPS`], and the body that uses it as `#g`.
+/// Attributes that each case adds to a gradient with [`STOPS`], and a body that uses it as `#g`.
 #[track_caller]
 fn check(tag: &str, attributes: &str, body: &str, most_wrong: f64) {
     check_stops(tag, attributes, STOPS, body, most_wrong);
@@ -179,7 +179,7 @@ fn places() {
         stroke,
         0.01,
     );
-    // Over each other, and over a solid ground.
+    // On top of each other, and on a solid background.
     let stack = "<rect width='200' height='150' fill='#9c3'/>\
                  <rect x='20' width='150' height='200' fill='url(#g)' fill-opacity='.8'/>\
                  <rect y='60' width='200' height='80' fill='url(#g)'/>";
@@ -295,9 +295,9 @@ fn a_mask_takes_the_alpha_of_gradients() {
     }
 }
 
-/// The f64 reference of the painter against the twin, on shapes by hand.
+/// The oracle's gradients against the twin, on shapes made by hand.
 #[test]
-fn painter_and_twin_agree() {
+fn oracle_and_twin_agree() {
     let stops = match paint_of("", "linearGradient", STOPS) {
         Some(Paint::Gradient(gradient)) => gradient.stops.clone(),
         other => panic!("{other:?}"),

@@ -1,4 +1,4 @@
-//! Tests of whole bakes.
+//! Tests of whole bakes. Tests of one noun are beside it.
 
 mod corpus;
 mod curve_cells;

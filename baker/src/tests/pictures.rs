@@ -1,4 +1,4 @@
-//! The drawing's cells, looked up point by point, against resvg's own picture of the same SVG.
+//! Lookups point by point against resvg's picture of the same SVG.
 
 use tiny_skia::{Pixmap, Transform};
 use vtex_format::WarningCode;
@@ -36,13 +36,13 @@ fn resvg_picture(tree: &usvg::Tree, size: [u32; 2]) -> Pixmap {
     pixmap
 }
 
-/// Samples a side for each texel compared. Without them tiny-skia's hairlines and its 4 x 4
-/// coverage samples, not our outlines, decide the difference of thin strokes.
+/// Samples along each side of a texel that is compared. With fewer, tiny-skia's hairlines and its 4
+/// x 4 coverage samples, not our outlines, decide the difference of thin strokes.
 const SAMPLES: u32 = 8;
-/// By how much a texel on an edge may differ: resvg composites its 8-bit coverage sRGB-encoded, which
-/// between dark and light is off by up to a quarter of a sample.
+/// How much a texel on an edge may differ. resvg composites its 8-bit coverage sRGB-encoded,
+/// which between dark and light is off by up to a quarter of a sample.
 const EDGE_CODES: u8 = 32;
-/// Texels a side for each texel compared in which our lookups lie.
+/// Texels along each side of a texel that is compared, for our lookups.
 const OWN_SAMPLES: u32 = 3;
 
 /// The average of [`SAMPLES`] x [`SAMPLES`] texels in linear light.
@@ -81,7 +81,7 @@ fn difference(a: &Pixmap, b: &Pixmap) -> (f64, u8) {
     (psnr.min(99.0), differences.max().unwrap_or(0))
 }
 
-/// Writes both pictures to `VTEX_DUMP`, for looking at a failure.
+/// Writes both pictures to the folder that `VTEX_DUMP` names, if it is set.
 pub(crate) fn dump(name: &str, ours: &Pixmap, theirs: &Pixmap) {
     if let Ok(dir) = std::env::var("VTEX_DUMP") {
         for (suffix, pixmap) in [("ours", ours), ("resvg", theirs)] {

@@ -69,7 +69,6 @@ mod ruzstd_decoder {
     use ruzstd::decoding::{BlockDecodingStrategy, FrameDecoder};
 
     use super::Frame;
-    use crate::serial::frame::MAX_BLOCK_BYTES;
 
     /// Magic number and a descriptor that says: one segment, its size, which
     /// is the window, in eight bytes.
@@ -79,13 +78,10 @@ mod ruzstd_decoder {
     ///
     /// The decoder is given the blocks behind a head of our own, whose window is the whole content
     /// whatever the frame's head says. A match may then reach back to the first byte, as it may for
-    /// the C library, which decodes into the one piece of memory and looks at no window. Only
-    /// where a small window makes for smaller blocks it stays, since it bounds them.
+    /// the C library, which decodes into the one piece of memory and looks at no window. The C
+    /// library refuses blocks larger than a small window; here they pass, and the hash decides.
     pub(super) fn decode(frame: &Frame<'_>, raw: &mut [u8]) -> Option<()> {
-        let window = match frame.max_block_bytes {
-            MAX_BLOCK_BYTES => raw.len() as u64,
-            less => less,
-        };
+        let window = raw.len() as u64;
         let window_bytes = window.to_le_bytes();
         let mut source = HEAD.chain(window_bytes.as_slice()).chain(frame.blocks);
         let mut decoder = FrameDecoder::new();
@@ -95,9 +91,8 @@ mod ruzstd_decoder {
         let one = || BlockDecodingStrategy::UptoBlocks(1);
         while !decoder.decode_blocks(&mut source, one()).ok()? {
             // What lies beyond the window can be collected. A frame that holds more than it says
-            // is found within a window of small blocks, or one block of large ones, too many.
-            let beyond = decoder.can_collect() as u64;
-            if beyond > 0 && beyond + window > raw.len() as u64 {
+            // is found within one block too many.
+            if decoder.can_collect() > 0 {
                 return None;
             }
         }

@@ -1,5 +1,6 @@
 //! Buffers of bytes, there and back.
 
+use futures_channel::oneshot;
 use wgpu::{Buffer, BufferUsages, Device, Queue};
 
 use super::reply::reply;
@@ -81,9 +82,13 @@ pub(crate) async fn read_back(
         Ok(staging)
     })
     .await?;
-    let (promise, mapped) = reply(device);
-    staging.map_async(wgpu::MapMode::Read, .., move |result| promise.keep(result));
-    mapped
+    let ask = |mapped: oneshot::Sender<_>| {
+        // Nobody listens any more when the future was dropped.
+        staging.map_async(wgpu::MapMode::Read, .., move |result| {
+            let _ = mapped.send(result);
+        });
+    };
+    reply(device, ask)
         .await?
         .map_err(|error| RuntimeError::Device(error.to_string()))?;
     let view = staging

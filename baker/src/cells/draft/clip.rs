@@ -1,4 +1,8 @@
-//! Where clips let a group show in one cell, as a run of tests with jumps.
+//! The clips of a group in one cell, as conditional jumps.
+//!
+//! In most cells a clip is everywhere or nowhere, and costs nothing. Only outlines that cross the
+//! cell become tests. The tests evaluate a formula of unions and intersections the way compilers
+//! evaluate `&&` and `||`: each test may decide the whole and jump.
 
 use super::entry::{CurvesDraft, draft_curves};
 use crate::{
@@ -6,31 +10,31 @@ use crate::{
     drawing::tree::{Clip, ClipPart},
 };
 
-/// Where in the cell.
+/// Where in the cell a group shows.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Formula<'a> {
     Never,
     Always,
-    /// Inside the outline of a record.
+    /// Inside the outline of a curve record.
     Inside(Box<CurvesDraft<'a>>),
-    /// Where all are; two at least.
+    /// The intersection of two or more.
     All(Vec<Self>),
-    /// Where one is; two at least.
+    /// The union of two or more.
     Any(Vec<Self>),
 }
 
-/// One step: lookups on one side of an outline pass over what follows.
+/// One jump: lookups on one side of an outline skip what follows.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Test<'a> {
     pub(super) outline: CurvesDraft<'a>,
-    /// Whether those inside jump, or those outside.
+    /// Whether lookups inside jump, or those outside.
     pub(super) jumps_inside: bool,
-    /// The test that they come to next; the number of tests stands for what the clip holds,
-    /// `None` for the end of it.
+    /// Index of the test that they continue with. The number of tests stands for the group's body,
+    /// `None` for the end of the group.
     pub(super) to: Option<usize>,
 }
 
-/// What `clips` come to in a cell with these items.
+/// What `clips` come to in a cell that shows the items `present`.
 pub(super) fn formula<'a>(
     input: &CellInput<'a>,
     clips: &[Clip],
@@ -43,6 +47,7 @@ pub(super) fn formula<'a>(
     }))
 }
 
+/// An outline and the clips on it. Absent from the cell it covers no point, full it covers all.
 fn of_part<'a>(
     input: &CellInput<'a>,
     part: &ClipPart,
@@ -62,12 +67,15 @@ fn of_part<'a>(
     all([clips, outline])
 }
 
+/// The intersection, simplified.
 fn all<'a>(formulas: impl IntoIterator<Item = Formula<'a>>) -> Formula<'a> {
     let mut kept = Vec::new();
     for formula in formulas {
         match formula {
+            // One empty member makes the intersection empty.
             Formula::Never => return Formula::Never,
             Formula::Always => {}
+            // Nested intersections become one, which saves jumps to jumps.
             Formula::All(inner) => kept.extend(inner),
             other => kept.push(other),
         }
@@ -79,10 +87,12 @@ fn all<'a>(formulas: impl IntoIterator<Item = Formula<'a>>) -> Formula<'a> {
     }
 }
 
+/// The union, simplified.
 fn any<'a>(formulas: impl IntoIterator<Item = Formula<'a>>) -> Formula<'a> {
     let mut kept = Vec::new();
     for formula in formulas {
         match formula {
+            // One full member makes the union full.
             Formula::Always => return Formula::Always,
             Formula::Never => {}
             Formula::Any(inner) => kept.extend(inner),
@@ -97,7 +107,7 @@ fn any<'a>(formulas: impl IntoIterator<Item = Formula<'a>>) -> Formula<'a> {
 }
 
 impl<'a> Formula<'a> {
-    /// Tests ahead of what shows only where the formula holds.
+    /// The tests that precede a body which shows only where the formula holds.
     pub(super) fn into_tests(self) -> Vec<Test<'a>> {
         let mut code = Code::default();
         code.jump_if(self, false, Label::End);
@@ -105,15 +115,16 @@ impl<'a> Formula<'a> {
     }
 }
 
-/// Where a jump goes before places are known.
+/// The target of a jump whose place may not be known yet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Label {
+    /// The end of the group.
     End,
     /// Index into [`Code::places`].
     Place(usize),
 }
 
-/// Short-circuit evaluation: tests in order, jumps forward.
+/// Short-circuit evaluation. Tests are in order and jumps go forward only, so evaluation ends.
 #[derive(Debug, Default)]
 struct Code<'a> {
     tests: Vec<(CurvesDraft<'a>, bool, Label)>,
@@ -121,26 +132,29 @@ struct Code<'a> {
 }
 
 impl<'a> Code<'a> {
-    /// Jumps where `formula` comes to `value`, falls through elsewhere.
+    /// Emits tests that jump where `formula` is `value` and fall through elsewhere.
     fn jump_if(&mut self, formula: Formula<'a>, value: bool, to: Label) {
         match formula {
             Formula::Always | Formula::Never => {}
             Formula::Inside(outline) => self.tests.push((*outline, value, to)),
-            // The first that is false decides.
+            // An intersection is false as soon as one member is.
             Formula::All(formulas) => self.chain(formulas, false, value, to),
-            // The first that is true decides.
+            // A union is true as soon as one member is.
             Formula::Any(formulas) => self.chain(formulas, true, value, to),
         }
     }
 
-    /// Formulas of which the first that comes to `decisive` decides for that value.
+    /// As [`Self::jump_if`], for formulas of which the first that is `decisive` decides the whole.
     fn chain(&mut self, mut formulas: Vec<Formula<'a>>, decisive: bool, value: bool, to: Label) {
+        // Every member may decide on its own, so each jumps to the target directly.
         if decisive == value {
             for formula in formulas {
                 self.jump_if(formula, value, to);
             }
             return;
         }
+        // Otherwise the target is reached only if no member decides. All but the last jump behind
+        // the whole when they decide; the last one alone can jump to the target.
         let last = formulas.pop();
         let behind = Label::Place(self.places.len());
         self.places.push(0);
@@ -151,6 +165,7 @@ impl<'a> Code<'a> {
         if let Some(last) = last {
             self.jump_if(last, value, to);
         }
+        // Here the evaluation continues when a member has decided.
         self.places[place] = self.tests.len();
     }
 

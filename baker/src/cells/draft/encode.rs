@@ -1,4 +1,4 @@
-//! Lists as the file stores them.
+//! From drafts to the words that the file stores.
 
 use std::collections::BTreeMap;
 
@@ -7,9 +7,9 @@ use vtex_format::{
 };
 
 use super::{
+    block::{Block, Compositing, GroupDraft},
     clip::Test,
     entry::{CurvesDraft, Draft},
-    unit::{GroupDraft, ScopeDraft, Unit},
 };
 use crate::{
     cells::{
@@ -19,17 +19,17 @@ use crate::{
     error::BakeError,
 };
 
-/// Puts drafts into the file's sections, equal ones once.
+/// Appends drafts to the file's sections. Equal lists and equal records are stored once.
 pub(super) struct ListEncoder<'a> {
     lists: CellLists,
-    /// Offsets of the lists so far, so that equal ones are stored once.
+    /// Offset of each list so far.
     shared: BTreeMap<Vec<u32>, u32>,
-    /// Offsets of the records so far.
+    /// Offset of each curve record so far.
     records: BTreeMap<Vec<u32>, u32>,
     paints: &'a PaintTable,
 }
 
-/// An entry that names no paint.
+/// An entry that names no paint; its kind and data are filled in.
 const CONTROL: Entry = Entry {
     kind: EntryKind::Open,
     last: false,
@@ -39,7 +39,7 @@ const CONTROL: Entry = Entry {
 };
 
 impl<'p> ListEncoder<'p> {
-    /// `tiles` in the order in which they are stored.
+    /// An encoder without cells. `tiles` are sorted: their order is that of the file.
     pub(super) fn new(tiles: Vec<TileDraft>, paints: &'p PaintTable) -> Self {
         Self {
             lists: CellLists {
@@ -52,16 +52,18 @@ impl<'p> ListEncoder<'p> {
         }
     }
 
+    /// All cells.
     pub(super) fn into_lists(self) -> CellLists {
         self.lists
     }
 
-    pub(super) fn push_cell(&mut self, units: &[Unit<'_>]) -> Result<(), BakeError> {
-        let word = match units {
+    /// Appends the next cell.
+    pub(super) fn push_cell(&mut self, blocks: &[Block<'_>]) -> Result<(), BakeError> {
+        let word = match blocks {
             [] => CellWord::Empty,
-            [Unit::Entry(Draft::Full { paint })] => CellWord::Solid { paint: *paint },
-            units => CellWord::List {
-                offset_words: self.list_offset(units)?,
+            [Block::Entry(Draft::Full { paint })] => CellWord::Solid { paint: *paint },
+            blocks => CellWord::List {
+                offset_words: self.list_offset(blocks)?,
             },
         };
         let word = word.encode();
@@ -71,18 +73,21 @@ impl<'p> ListEncoder<'p> {
         Ok(())
     }
 
-    fn list_offset(&mut self, units: &[Unit<'_>]) -> Result<u32, BakeError> {
-        let count: usize = units.iter().map(Unit::entry_count).sum();
+    /// Offset of the list in the section, which may be that of an equal one.
+    fn list_offset(&mut self, blocks: &[Block<'_>]) -> Result<u32, BakeError> {
+        let count: usize = blocks.iter().map(Block::entry_count).sum();
+        // Counted before entries are made, so that a hostile drawing cannot take the memory.
         if count > MAX_ENTRIES_PER_CELL as usize {
             return Err(BakeError::Limit(format!(
                 "{count} shapes show in one cell of the grid, at most {MAX_ENTRIES_PER_CELL} can"
             )));
         }
         let mut entries = Vec::with_capacity(count);
-        self.units(units, &mut entries)?;
+        self.blocks(blocks, &mut entries)?;
         if let Some(last) = entries.last_mut() {
             last.last = true;
         }
+        // Invariant of the format: evaluators have a stack of fixed size.
         if list_frames(&entries).map_or(true, |frames| frames > MAX_FRAMES) {
             return Err(BakeError::Limit("groups nest too deeply".into()));
         }
@@ -94,6 +99,7 @@ impl<'p> ListEncoder<'p> {
         }
         let next = u32::try_from(self.lists.entries.len())
             .map_err(|_| BakeError::Limit("the cells' lists are too long".into()))?;
+        // A new list goes to the end; a known one keeps its place and nothing is appended.
         let offset = *self.shared.entry(words.clone()).or_insert(next);
         if offset == next {
             self.lists.entries.extend(words);
@@ -101,35 +107,38 @@ impl<'p> ListEncoder<'p> {
         Ok(offset)
     }
 
-    fn units(&mut self, units: &[Unit<'_>], entries: &mut Vec<Entry>) -> Result<(), BakeError> {
-        for unit in units {
-            match unit {
-                Unit::Entry(draft) => entries.push(self.entry(draft)?),
-                Unit::Scope(scope) => self.scope(scope, entries)?,
+    fn blocks(&mut self, blocks: &[Block<'_>], entries: &mut Vec<Entry>) -> Result<(), BakeError> {
+        for block in blocks {
+            match block {
+                Block::Entry(draft) => entries.push(self.entry(draft)?),
+                Block::Group(group) => self.group(group, entries)?,
             }
         }
         Ok(())
     }
 
-    fn scope(&mut self, scope: &ScopeDraft<'_>, entries: &mut Vec<Entry>) -> Result<(), BakeError> {
-        let end = entries.len() + Unit::scope_entry_count(scope);
+    /// Tests, then masks, then the body. Offsets of jumps count the entries that they skip: to the
+    /// next test they continue with, or to the group's end.
+    fn group(&mut self, group: &GroupDraft<'_>, entries: &mut Vec<Entry>) -> Result<(), BakeError> {
+        // Absolute places first; offsets are counted from the entry after the jump.
+        let end = entries.len() + Block::group_entry_count(group);
         let first = entries.len();
-        for (place, test) in scope.tests.iter().enumerate() {
+        for (place, test) in group.tests.iter().enumerate() {
             let to = test.to.map_or(end, |test| first + test);
             let entry = self.test(test, to - (first + place + 1))?;
             entries.push(entry);
         }
-        for (kind, units) in &scope.masks {
+        for (kind, blocks) in &group.masks {
             entries.push(open(true));
-            self.units(units, entries)?;
+            self.blocks(blocks, entries)?;
             entries.push(mask(*kind, end - entries.len() - 1)?);
         }
-        if let Some(group) = &scope.group {
-            entries.push(open(group.isolated));
-            self.units(&scope.body, entries)?;
-            entries.push(close(group));
+        if let Some(compositing) = &group.compositing {
+            entries.push(open(compositing.isolated));
+            self.blocks(&group.body, entries)?;
+            entries.push(close(compositing));
         } else {
-            self.units(&scope.body, entries)?;
+            self.blocks(&group.body, entries)?;
         }
         Ok(())
     }
@@ -137,6 +146,7 @@ impl<'p> ListEncoder<'p> {
     fn test(&mut self, test: &Test<'_>, skipped: usize) -> Result<Entry, BakeError> {
         Ok(Entry {
             kind: EntryKind::Test,
+            // In a test this bit says which side jumps.
             opaque: test.jumps_inside,
             index: count(skipped)?,
             data: self.record_offset(&test.outline)?,
@@ -153,6 +163,7 @@ impl<'p> ListEncoder<'p> {
             }
             Draft::Image { image } => (EntryKind::Image, *image, 0),
             Draft::Tile { paint, tile } => {
+                // Tiles are sorted, so the index of an equal one is where it would be inserted.
                 let tile = self.lists.tiles.partition_point(|other| other < tile);
                 let tile = u32::try_from(tile).unwrap_or(u32::MAX);
                 (EntryKind::Msdf, *paint, tile)
@@ -161,6 +172,7 @@ impl<'p> ListEncoder<'p> {
         Ok(Entry {
             kind,
             last: false,
+            // The alpha of an image differs from texel to texel.
             opaque: kind != EntryKind::Image && self.paints.is_opaque(index),
             index,
             data,
@@ -189,11 +201,11 @@ fn open(isolated: bool) -> Entry {
     }
 }
 
-fn close(group: &GroupDraft) -> Entry {
+fn close(compositing: &Compositing) -> Entry {
     Entry {
         kind: EntryKind::Close,
-        index: group.blend as u32,
-        data: group.opacity.to_bits(),
+        index: compositing.blend as u32,
+        data: compositing.opacity.to_bits(),
         ..CONTROL
     }
 }

@@ -1,4 +1,4 @@
-//! Entries before their tiles and records have places.
+//! Entries of one cell before tiles and records have offsets.
 
 use vtex_format::{SourceRecord, cut::CellCurves};
 
@@ -12,16 +12,20 @@ use crate::{
     drawing::FillRule,
 };
 
-/// An entry before tiles have indices.
+/// An entry that draws.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Draft<'a> {
+    /// A paint that covers the whole cell.
     Full { paint: u32 },
+    /// An MSDF tile.
     Tile { paint: u32, tile: TileDraft },
+    /// A curve record.
     Curves(CurvesDraft<'a>),
+    /// A raster image, anywhere in the cell.
     Image { image: u32 },
 }
 
-/// Shapes of one cell that share a record.
+/// A curve record: the outlines of shapes that share cell, paint, rank and fill rule.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CurvesDraft<'a> {
     pub(super) paint: u32,
@@ -32,15 +36,16 @@ pub(super) struct CurvesDraft<'a> {
     pub(super) words: Vec<u32>,
 }
 
-/// The entries of items that lie between groups, front to back: sorted, merged, folded, and cut
-/// behind the first that hides the rest.
+/// The entries of items that no group comes between, front to back. Entries of equal paint are
+/// merged, full ones folded into one colour, and all is cut behind the first that hides the rest.
 pub(super) fn draft_run<'a>(
     input: &CellInput<'a>,
     mut items: Vec<Present>,
     cell: u32,
     paints: &mut PaintTable,
 ) -> Vec<Draft<'a>> {
-    // Members of a rank do not meet, so their order is free and equal paints may come together.
+    // Members of a rank do not meet, so their order within the rank is free: sorting by paint puts
+    // those side by side that can share a tile or a record.
     let free = !input.packing.forced;
     items.sort_unstable_by_key(|present| {
         let index = present.item as usize;
@@ -65,11 +70,12 @@ pub(super) fn draft_run<'a>(
     drafts
 }
 
-/// The entries of one item: one, but for curves that a record is too small for.
+/// The entries of one item: one, or several when its curves do not fit one record.
 fn draft_item<'a>(input: &CellInput<'a>, present: Present, cell: u32) -> Vec<Draft<'a>> {
     let Present { item, full } = present;
     let index = item as usize;
     let paint = input.paint_or_image[index];
+    // The index names an image here, not a paint.
     if input.placed[index].kind == PlacedKind::Patch {
         return vec![Draft::Image { image: paint }];
     }
@@ -82,6 +88,7 @@ fn draft_item<'a>(input: &CellInput<'a>, present: Present, cell: u32) -> Vec<Dra
     }
     let rank = input.packing.ranks[index];
     let layer = input.layer_of_rank[rank as usize];
+    // Neither an image nor full nor curves: it is an MSDF.
     let tile = TileDraft {
         layer,
         cell,
@@ -90,7 +97,7 @@ fn draft_item<'a>(input: &CellInput<'a>, present: Present, cell: u32) -> Vec<Dra
     vec![Draft::Tile { paint, tile }]
 }
 
-/// An item's outline in a cell: one record, or strips that add up to it.
+/// An item's outline in a cell: one record, or strips that add up to it. Empty unless it is curves.
 pub(super) fn draft_curves<'a>(
     input: &CellInput<'a>,
     item: u32,
@@ -103,7 +110,7 @@ pub(super) fn draft_curves<'a>(
         paint: input.paint_or_image[index],
         rank: input.packing.ranks[index],
         rule,
-        // Every part fits a record of its own, or the outline would not be curves.
+        // Invariant: `cover` has encoded every part alone, so that cannot fail here.
         words: encode_record(&[part], rule).unwrap_or_default(),
         parts: vec![part],
         source: SourceRecord {
@@ -114,8 +121,8 @@ pub(super) fn draft_curves<'a>(
     parts.map(draft).collect()
 }
 
-/// Takes `back` into `front` where one entry can stand for both. `apart` says that members of a
-/// rank do not meet.
+/// Merges `back` into `front` where one entry can stand for both, and returns whether it did.
+/// `apart` says that members of a rank do not meet.
 fn merge<'a>(
     front: &mut Draft<'a>,
     back: &Draft<'a>,
@@ -124,6 +131,8 @@ fn merge<'a>(
 ) -> bool {
     match (front, back) {
         (Draft::Full { paint }, Draft::Full { paint: behind }) => {
+            // Solid paints over the whole cell are one colour, computed as lookups would composite
+            // them.
             let both = paints.intern_over(*paint, *behind);
             *paint = both.unwrap_or(*paint);
             both.is_some()
@@ -135,6 +144,7 @@ fn merge<'a>(
                 tile: other,
             },
         ) if paint == other_paint && tile.layer == other.layer => {
+            // Shapes of one layer and paint share a tile: the nearest edge decides between them.
             tile.items.extend(&other.items);
             tile.items.sort_unstable();
             true
@@ -158,6 +168,7 @@ impl CurvesDraft<'_> {
             return false;
         }
         let parts = [self.parts.as_slice(), &other.parts].concat();
+        // The two together may be too much for one record; then each keeps its own.
         let Ok(words) = encode_record(&parts, self.rule) else {
             return false;
         };

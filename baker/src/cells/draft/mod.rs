@@ -1,9 +1,12 @@
-//! Cells' lists: drafted cell by cell, then stored with equal parts shared.
+//! Drafting the cells' lists: what shows in each cell, cut to what a lookup can see.
+//!
+//! A draft becomes entries only after all cells are drafted, because the index of a tile is known
+//! only once all tiles are sorted.
 
+mod block;
 mod clip;
 mod encode;
 mod entry;
-mod unit;
 
 use super::{
     input::{self, CellInput},
@@ -11,25 +14,29 @@ use super::{
     paint_table::PaintTable,
 };
 use crate::{coverage::grid::Lattice, error::BakeError};
+use block::Block;
 use encode::ListEncoder;
-use unit::Unit;
 
-/// Builds every cell's list.
+/// Builds the list of every cell.
+///
+/// # Errors
+/// [`BakeError::Limit`] when a list holds more than the format allows.
 pub(crate) fn build_cells(
     input: &CellInput<'_>,
     lattice: &Lattice,
     paints: &mut PaintTable,
 ) -> Result<CellLists, BakeError> {
-    let drafts: Vec<Vec<Unit<'_>>> = input::items_by_cell(input, lattice)
+    let drafts: Vec<Vec<Block<'_>>> = input::items_by_cell(input, lattice)
         .into_iter()
         .zip(0_u32..)
-        .map(|(items, cell)| unit::draft_cell(input, &items, cell, paints))
+        .map(|(items, cell)| block::draft_cell(input, &items, cell, paints))
         .collect();
     let mut tiles = Vec::new();
-    for unit in drafts.iter().flatten() {
-        unit.tiles(&mut tiles);
+    for block in drafts.iter().flatten() {
+        block.tiles(&mut tiles);
     }
-    // Layer by layer as the format wants; within a cell a layer may have a tile a paint.
+    // The format wants tiles by layer. A layer may have several tiles in a cell, one for each
+    // paint.
     tiles.sort_unstable();
     let mut encoder = ListEncoder::new(tiles, paints);
     for cell in &drafts {

@@ -1,9 +1,10 @@
-//! Greedy order-preserving packing into subsets whose members never meet.
+//! Packing into layers: greedy, and painter's order is kept.
 //!
-//! Item i gets the lowest rank above every earlier item that meets it; two items meet when their
+//! An item gets the lowest rank above every earlier item that it meets. Two items meet when their
 //! filled regions, as seen inside a window, come within a reach of each other. By construction
-//! members of a rank do not meet, painter's order is kept wherever it shows, and the number of
-//! ranks is the length of the longest chain of items each of which meets the next.
+//! members of a rank do not meet, and painter's order is kept wherever it can be seen. The number
+//! of ranks is the length of the longest chain of items each of which meets the next; no packing
+//! that keeps the order has fewer.
 
 mod packer;
 #[cfg(test)]
@@ -17,11 +18,11 @@ use packer::Packer;
 /// Ranks of items in painter's order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Packing {
-    /// Rank of each item; the backmost is 0.
+    /// Rank of each item; 0 is the backmost.
     pub(crate) ranks: Vec<u32>,
     /// How many ranks there are.
     pub(crate) count: u32,
-    /// Whether some items met though all were to share one rank.
+    /// Whether a forced merge put items that meet into one rank.
     pub(crate) forced: bool,
 }
 
@@ -32,14 +33,16 @@ pub(crate) fn pack_items(
     scales: &Scales,
     merge: bool,
 ) -> Packing {
-    // Two shapes in a tile must keep out of each other's distances, two in a curve record only
-    // out of each other's ramps.
+    // Shapes of one rank share MSDF tiles and curve records. In a tile no texel may lie within half
+    // the range of two shapes, because it stores one distance. In a record only the ramps must not
+    // overlap: each reaches one margin outwards.
     let shapes = || placed.iter().filter(|item| item.is_shape());
     let reach = if shapes().all(Placed::is_curves) {
         2.0 * scales.distances.margin
     } else {
         scales.range
     };
+    // Lookups stay on the canvas, but tiles at its border see outlines up to the reach beyond it.
     let window = lattice.canvas.inflate(reach, reach);
     if merge {
         merge_all(placed, window, reach)
@@ -48,7 +51,7 @@ pub(crate) fn pack_items(
     }
 }
 
-/// Packs `items`. What lies outside `window` does not count, two items within `reach` steps do.
+/// Packs `items`. What lies outside `window` does not count; items within `reach` steps meet.
 fn pack(items: &[Placed], window: Rect, reach: f64) -> Packing {
     let mut packer = Packer::new(items, window, reach);
     for index in 0..items.len() {

@@ -9,16 +9,17 @@ use crate::{
     number::floor_index,
 };
 
-/// How far flattening may move an outline, in steps; the reach grows by both outlines' share.
+/// How far flattening may move an outline, in steps. The reach grows by twice as much, because
+/// both outlines are flattened.
 pub(super) const FLATTEN_TOLERANCE: f64 = 0.05;
-/// Buckets along the window's longer side; a line is as long as a bucket at most.
+/// Buckets along the window's longer side. A line is at most as long as a bucket.
 const BUCKETS: f64 = 128.0;
 
 /// The part of an item's boundary that lies in the window.
 #[derive(Debug, Default)]
 struct Boundary {
     lines: Vec<Line>,
-    /// One point of every connected run of lines.
+    /// One point of each run of connected lines.
     run_points: Vec<Point>,
 }
 
@@ -53,17 +54,20 @@ impl<'a> Packer<'a> {
 
     /// Ranks the next item.
     pub(super) fn add(&mut self, index: usize) {
-        // What is not painted is in nobody's way.
+        // A clip outline paints nothing, so it cannot meet anything.
         if self.items[index].kind == PlacedKind::Clip {
             self.run_points.push(Vec::new());
             self.ranks.push(0);
             return;
         }
+        // Lines no longer than a bucket lie in few buckets.
         let side = self.buckets.side;
         let boundary = boundary(&self.items[index], self.window, side);
         self.run_points.push(boundary.run_points);
+        // Ranks below the floor need no inside tests: the item must go above them anyway.
         let floor = self.rank_above_near(&boundary.lines);
         let rank = self.rank_above_containing(index, floor);
+        // A rank that nothing had before.
         if rank == self.members.len() {
             self.members.push(Vec::new());
         }
@@ -80,7 +84,8 @@ impl<'a> Packer<'a> {
         for line in lines {
             let area = Rect::from_points(line.p0, line.p1).inflate(self.reach, self.reach);
             for bucket in self.buckets.in_box(area) {
-                // Later items tend to have higher ranks, after which the others need no distance.
+                // Later items tend to have higher ranks. Once one of them is near, lines of lower
+                // rank cannot change the result and need no distance: start with the latest.
                 for &(item, other) in self.buckets.lines[bucket].iter().rev() {
                     let rank = self.ranks[item];
                     if rank >= lowest && line_line_distance(*line, other) <= self.reach {
@@ -96,6 +101,7 @@ impl<'a> Packer<'a> {
     /// contained in it.
     fn rank_above_containing(&self, index: usize, floor: usize) -> usize {
         (floor..self.members.len())
+            // Search from the top: the first rank with a containing item decides.
             .rev()
             .find(|&rank| {
                 let mut members = self.members[rank].iter();
@@ -104,8 +110,9 @@ impl<'a> Packer<'a> {
             .map_or(floor, |rank| rank + 1)
     }
 
-    /// For two items whose boundaries inside the window do not touch: whether they overlap. Then a
-    /// whole run of one's boundary lies in the other, or both fill the window.
+    /// Whether two items overlap whose boundaries do not touch inside the window. Then one contains
+    /// a whole run of the other's boundary, so one point for each run decides; or both fill the
+    /// window, so its centre does.
     fn one_holds_other(&self, a: usize, b: usize) -> bool {
         let (item_a, item_b) = (&self.items[a], &self.items[b]);
         let common = item_a.bounds().intersect(item_b.bounds());
@@ -137,6 +144,8 @@ fn add_contour(contour: &[Point], window: Rect, longest: f64, boundary: &mut Bou
             run_end = None;
             continue;
         };
+        // Clipping cuts the boundary into runs. Within a run one point speaks for all, because
+        // nothing crosses it: near boundaries have been dealt with.
         if run_end != Some(line.p0) {
             boundary.run_points.push(line.p0);
         }
@@ -145,18 +154,20 @@ fn add_contour(contour: &[Point], window: Rect, longest: f64, boundary: &mut Bou
     }
 }
 
-/// Lines by where they lie.
+/// Lines, sorted into square buckets of the window.
 struct Buckets {
     origin: Point,
     side: f64,
     columns: usize,
     rows: usize,
-    /// Item and line, in painter's order.
+    /// For each bucket the lines that reach into it, with their items, in painter's order.
     lines: Vec<Vec<(usize, Line)>>,
 }
 
 impl Buckets {
     fn new(window: Rect, reach: f64) -> Self {
+        // A bucket is at least as wide as the reach, so near lines are in the same bucket or a
+        // neighbour.
         let side = (window.width().max(window.height()) / BUCKETS).max(reach);
         let columns = floor_index(window.width() / side) + 1;
         let rows = floor_index(window.height() / side) + 1;

@@ -36,7 +36,7 @@ fn lines(item: &Placed) -> Vec<Line> {
         .collect()
 }
 
-/// Every line against every line, every vertex against the other's inside.
+/// Whether two items meet: every line against every line, every vertex against the other's inside.
 fn meet(a: &Placed, b: &Placed, reach: f64) -> bool {
     let apart = |a: Rect, b: Rect| !a.inflate(reach, reach).overlaps(b);
     if apart(a.bounds(), b.bounds()) {
@@ -111,7 +111,7 @@ fn shapes_that_fill_the_window_and_shapes_beside_it() {
         let path = kurbo::Shape::to_path(&Rect::new(low, low, high, high), 0.1);
         Placed::new(path, FillRule::NonZero, PlacedKind::Patch)
     };
-    // Two grounds larger than the window, a dot, and something far outside.
+    // Two backgrounds larger than the window, a dot, and something far outside.
     let items = [
         square(-1e4, 1e4),
         square(-2e4, 2e4),
@@ -137,14 +137,15 @@ fn check_svg(svg: &[u8]) {
     check(&items, &pack(&items, everywhere, reach), reach);
 }
 
-/// Disjoint and in order on real drawings, and as few layers as the longest chain allows.
+/// Real drawings: members of a rank are disjoint, the order is kept, and ranks are as few as
+/// possible.
 #[test]
 fn corpus_ranks_are_the_longest_chains() {
     let Some(corpus) = Corpus::find("layers of real drawings") else {
         return;
     };
     check_svg(&corpus.read("paper5/5_tiger__svgpan__tiger.svg"));
-    // Brute force takes every pair of lines: small files, and of every kind some.
+    // Brute force looks at every pair of lines, so only small files, some of every kind.
     let mut names = corpus.drawings();
     names.retain(|path| path.extension().is_some_and(|ending| ending == "svg"));
     names.retain(|path| path.metadata().is_ok_and(|file| file.len() <= 16 << 10));

@@ -1,33 +1,36 @@
-//! Outlines as monotone lines and quadratics between points of the integer lattice.
+//! Lowering: outlines become monotone lines and quadratics between points of the curve lattice.
+//!
+//! A curve is always cut in the same of its two directions. So an edge that two shapes share,
+//! running one way in one and the other way in the other, becomes the same segments in both: no
+//! seam.
 
 use kurbo::{BezPath, CubicBez, PathEl, Point, QuadBez};
 use vtex_format::cut::parameter;
 
 use super::CurveError;
 
-/// Largest coordinate in units. Cuts keep a precision far below a unit, and a canvas of 128 cells
-/// is 2^23 units wide.
+/// Largest coordinate in units. Up to here f64 keeps cuts far more precise than a unit. A canvas of
+/// 128 cells is 2^23 units wide.
 const MAX_COORDINATE: f64 = (1_u64 << 40) as f64;
-/// Most quadratics that a monotone piece of a cubic becomes; one that would need more leaves its
-/// tolerance. An arc that spans a whole canvas at the largest zoom takes about 30.
+/// Most quadratics that a monotone piece of a cubic becomes. A piece that needs more is less exact
+/// than asked. An arc across the whole canvas at the largest zoom takes about 30.
 const MAX_PIECES: u32 = 1024;
-/// Share of a cubic's parameter that one quadratic may take whatever its error.
+/// Share of a cubic's parameter range that one quadratic covers at least, whatever its error.
 const SHORTEST_STEP: f64 = 1.0 / 1024.0;
-/// What the next step may gain on the last.
+/// How much longer than the last step the next may be.
 const STEP_GROWTH: f64 = 1.5;
 
-/// A line or quadratic, monotone in x and in y, from its upper to its lower end (equal heights:
-/// left to right). So two shapes that share an edge hold the same segment, whichever way round
-/// they run.
+/// A line or quadratic that is monotone in x and in y. It runs from its upper to its lower end, or
+/// left to right if both have the same height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Segment {
     /// Upper end, on the lattice.
     pub(crate) start: Point,
-    /// Control point, inside the box of the ends.
+    /// Control point of a quadratic, inside the box of the ends: that makes it monotone.
     pub(crate) control: Option<Point>,
     /// Lower end, on the lattice.
     pub(crate) end: Point,
-    /// 1 where the outline runs from start to end, -1 where it runs back.
+    /// 1 if the outline runs from start to end, -1 if it runs back.
     pub(crate) direction: i32,
 }
 
@@ -44,7 +47,8 @@ impl Segment {
         self.start.x.max(self.end.x)
     }
 
-    /// Blossom: the point at `s = t`, and the control point of the part between `s` and `t`.
+    /// The blossom: for `s = t` the point at that parameter, else the control point of the part
+    /// between the two.
     pub(crate) fn blossom(&self, s: f64, t: f64) -> Point {
         let (a, b) = (self.start.to_vec2(), self.end.to_vec2());
         let point = match self.control {
@@ -59,19 +63,19 @@ impl Segment {
     }
 }
 
-/// A shape's outline in units, ready to be cut.
+/// An outline in units, ready to be cut.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LoweredOutline {
-    /// The segments of all contours, along the contours; every contour is a closed chain.
+    /// The segments of all contours, in the order of the outline. Every contour is a closed chain.
     pub(crate) segments: Vec<Segment>,
 }
 
 impl LoweredOutline {
-    /// Lowers `outline`, whose coordinates are in units; contours are closed where they are not.
-    /// Cubics are replaced by quadratics within `tolerance` units.
+    /// Lowers an outline whose coordinates are in units. Open contours are closed. Quadratics
+    /// replace cubics within `tolerance` units.
     ///
     /// # Errors
-    /// [`CurveError::Range`] for coordinates that no lattice can hold.
+    /// [`CurveError::Range`] for coordinates that are not finite or too large.
     pub(crate) fn new(outline: &BezPath, tolerance: f64) -> Result<Self, CurveError> {
         let mut lowering = Lowering {
             segments: Vec::new(),
@@ -82,6 +86,8 @@ impl LoweredOutline {
             check_range(element)?;
             match *element {
                 PathEl::MoveTo(p) => {
+                    // A move ends the contour before it. Close that one: an open contour would
+                    // leak.
                     lowering.line(here, first);
                     (first, here) = (p, p);
                 }
@@ -103,6 +109,7 @@ impl LoweredOutline {
                 }
             }
         }
+        // The last contour has no move behind it.
         lowering.line(here, first);
         Ok(Self {
             segments: lowering.segments,
@@ -137,12 +144,13 @@ impl Lowering {
 
     fn quad(&mut self, quad: QuadBez) {
         let first = self.segments.len();
-        // The same quadratic backwards is cut at the same points.
+        // Always cut in the same direction: see the module.
         let (quad, forward) = if is_canonical(quad.p0, quad.p2, quad.p1, quad.p1) {
             (quad, true)
         } else {
             (QuadBez::new(quad.p2, quad.p1, quad.p0), false)
         };
+        // Not monotone yet; only its blossom is used.
         let whole = Segment {
             start: quad.p0,
             control: Some(quad.p1),
@@ -153,6 +161,7 @@ impl Lowering {
             [quad.p0.x, quad.p1.x, quad.p2.x],
             [quad.p0.y, quad.p1.y, quad.p2.y],
         ];
+        // At these parameters x or y turns.
         let mut cuts: Vec<f64> = axes
             .map(|[a, b, c]| (a - b) / (a - 2.0 * b + c))
             .into_iter()
@@ -161,7 +170,9 @@ impl Lowering {
         cuts.sort_by(f64::total_cmp);
         let mut from = (0.0, quad.p0.round());
         for t in cuts.into_iter().chain([1.0]) {
+            // Rounded once, and the next part starts there.
             let end = whole.blossom(t, t).round();
+            // Exact for the unrounded ends. Rounding the ends bends the part by about half a unit.
             let control = whole.blossom(from.0, t);
             self.push_along(forward, from.1, control, end);
             from = (t, end);
@@ -178,10 +189,12 @@ impl Lowering {
             (reversed, false)
         };
         let mut cuts = extrema([cubic.p0.x, cubic.p1.x, cubic.p2.x, cubic.p3.x]);
+        // The same parameter may turn both coordinates.
         cuts.extend(extrema([cubic.p0.y, cubic.p1.y, cubic.p2.y, cubic.p3.y]));
         cuts.sort_by(f64::total_cmp);
         let mut from = 0.0;
         for t in cuts.into_iter().chain([1.0]) {
+            // Equal parameters would give a piece of no length.
             if t > from {
                 self.monotone_cubic(&subcubic(&cubic, from, t), forward);
                 from = t;
@@ -190,9 +203,11 @@ impl Lowering {
         self.put_in_order(first, forward);
     }
 
-    /// Both coordinates of `cubic` are monotone.
+    /// Replaces a cubic that is monotone in x and in y by quadratics, each as long as the tolerance
+    /// allows.
     fn monotone_cubic(&mut self, cubic: &CubicBez, forward: bool) {
         let mut from = 0.0;
+        // Try the whole piece first: most need one quadratic.
         let mut step = 1.0_f64;
         for _ in 0..MAX_PIECES {
             let (to, quad) = longest_quad(cubic, from, step, self.tolerance);
@@ -204,8 +219,8 @@ impl Lowering {
         }
     }
 
-    /// Pieces of a curve that was cut backwards, from the one with index `first` on, follow its own
-    /// direction again.
+    /// Puts the segments from index `first` on into the order of the outline, if the curve was cut
+    /// backwards.
     fn put_in_order(&mut self, first: usize, forward: bool) {
         if !forward {
             self.segments[first..].reverse();
@@ -220,16 +235,19 @@ impl Lowering {
         }
     }
 
-    /// `from` and `to` are lattice points.
+    /// Appends a segment between two lattice points, unless they are the same point.
     fn push(&mut self, from: Point, control: Option<Point>, to: Point) {
         if from == to {
             return;
         }
+        // Equal heights are ordered by x, so that every segment has one canonical direction.
         let down = (from.y, from.x) < (to.y, to.x);
         let (start, end) = if down { (from, to) } else { (to, from) };
+        // Rounding may push the control point out of the box; inside it the segment stays monotone.
         let control = control.map(|c| clamp_to_box(c.round(), start, end));
         self.segments.push(Segment {
             start,
+            // With its control point at an end a quadratic is a line.
             control: control.filter(|c| *c != start && *c != end),
             end,
             direction: if down { 1 } else { -1 },
@@ -237,13 +255,14 @@ impl Lowering {
     }
 }
 
-/// Whether a curve runs in the one of its two directions in which it is cut.
+/// Whether a curve runs in the direction in which curves are cut. The key orders both directions of
+/// any curve, and differs for them unless the curve is symmetric.
 fn is_canonical(start: Point, end: Point, after: Point, before: Point) -> bool {
     let key = |p: Point, q: Point| (p.y, p.x, q.y, q.x);
     key(start, after) <= key(end, before)
 }
 
-/// `p` moved into the box of two corners.
+/// `p` moved into the box of two opposite corners.
 fn clamp_to_box(p: Point, a: Point, b: Point) -> Point {
     Point::new(
         p.x.clamp(a.x.min(b.x), a.x.max(b.x)),
@@ -251,21 +270,24 @@ fn clamp_to_box(p: Point, a: Point, b: Point) -> Point {
     )
 }
 
-/// Parameters in (0, 1) at which a cubic's coordinate turns round.
+/// Parameters in (0, 1) at which a coordinate of a cubic has an extremum.
 fn extrema([p0, p1, p2, p3]: [f64; 4]) -> Vec<f64> {
     let (d0, d1, d2) = (p1 - p0, p2 - p1, p3 - p2);
     let (a, b, c) = (d0 - 2.0 * d1 + d2, d1 - d0, d0);
-    // a t^2 + 2 b t + c = 0, by the form that does not cancel.
+    // Roots of a t^2 + 2 b t + c, by the form without cancellation.
     let discriminant = b * b - a * c;
     if discriminant <= 0.0 {
         return Vec::new();
     }
     let q = -(b + discriminant.sqrt().copysign(b));
+    // Division by zero gives infinity or NaN, which the range below excludes.
     let roots = [q / a, c / q];
     roots.into_iter().filter(|t| *t > 0.0 && *t < 1.0).collect()
 }
 
+/// The part of a cubic between two parameters. Its ends are bit-exact at 0 and 1.
 fn subcubic(cubic: &CubicBez, from: f64, to: f64) -> CubicBez {
+    // The blossom of the cubic: de Casteljau with a parameter of its own in each round.
     let at = |r: f64, s: f64, t: f64| {
         let ends = [cubic.p0, cubic.p1, cubic.p2, cubic.p3].map(Point::to_vec2);
         let first = [0, 1, 2].map(|i| ends[i].lerp(ends[i + 1], r));
@@ -284,13 +306,13 @@ fn subcubic(cubic: &CubicBez, from: f64, to: f64) -> CubicBez {
     )
 }
 
-/// The quadratic that follows `cubic` from parameter `from` as far as `tolerance` lets it, at most
-/// about `step`, and where it ends.
+/// A quadratic that follows `cubic` from parameter `from` within `tolerance`, and the parameter at
+/// which it ends: about `step` further, or less if the tolerance demands it.
 fn longest_quad(cubic: &CubicBez, from: f64, step: f64, tolerance: f64) -> (f64, QuadBez) {
     let mut step = step.min(1.0);
     loop {
         let rest = 1.0 - from;
-        // A little more than the step is better than a crumb behind it.
+        // A slightly longer step is better than a tiny one after it.
         let to = if 1.25 * step >= rest {
             1.0
         } else {
@@ -307,9 +329,9 @@ fn longest_quad(cubic: &CubicBez, from: f64, step: f64, tolerance: f64) -> (f64,
     }
 }
 
-/// A quadratic for a monotone cubic, with its error. The control point where the end tangents meet
-/// gives an error of fourth order and a smooth join; the one that keeps the middle is right where
-/// tangents fail, as at a point of inflection.
+/// The better of two quadratics for a monotone cubic, with its error. A control point where the end
+/// tangents meet gives a smooth join and an error of fourth order. Where the tangents do not meet,
+/// as at a point of inflection, the control point that keeps the middle serves.
 fn best_quad(cubic: &CubicBez) -> (QuadBez, f64) {
     let [p0, p1, p2, p3] = [cubic.p0, cubic.p1, cubic.p2, cubic.p3].map(Point::to_vec2);
     let with = |control: Point| {
@@ -317,21 +339,25 @@ fn best_quad(cubic: &CubicBez) -> (QuadBez, f64) {
         let quad = QuadBez::new(cubic.p0, control, cubic.p3);
         (quad, quad_error(cubic, &quad))
     };
+    // The control point for which both curves have the same point at t = 1/2.
     let middle = with((0.25 * (3.0 * (p1 + p2) - p0 - p3)).to_point());
     let (a, b) = (p1 - p0, p3 - p2);
+    // Where the tangents at both ends meet, in lengths of the first.
     let along = (p3 - p0).cross(b) / a.cross(b);
     let meets = along.is_finite() && along > 0.0;
     let tangent = meets.then(|| with((p0 + along * a).to_point()));
     match tangent {
+        // The smoother one is taken if it is as good.
         Some(tangent) if tangent.1 <= middle.1 => tangent,
         _ => middle,
     }
 }
 
-/// The largest distance, across their common chord, between two monotone curves with the same
-/// ends, at the sampled places; never less than their distance there.
+/// The largest distance between two monotone curves with the same ends, at sampled places. It is
+/// measured across their chord, which is never less than the true distance at that place.
 fn quad_error(cubic: &CubicBez, quad: &QuadBez) -> f64 {
     let chord = cubic.p3 - cubic.p0;
+    // In coordinates along and across the chord.
     let chord = chord / chord.hypot();
     if !chord.is_finite() {
         return 0.0;
@@ -347,9 +373,11 @@ fn quad_error(cubic: &CubicBez, quad: &QuadBez) -> f64 {
         let weights = [3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
         let x = weights[0] * c1.0 + weights[1] * c2.0 + weights[2] * end;
         let y = weights[0] * c1.1 + weights[1] * c2.1;
+        // The quadratic at the same place along the chord; both curves are monotone along it.
         let u = parameter(0.0, Some(control.0), end, x);
         (y - 2.0 * (1.0 - u) * u * control.1).abs()
     };
+    // Seven places find the largest error of curves that differ this little.
     let places = [0.1, 0.22, 0.36, 0.5, 0.64, 0.78, 0.9];
     places.into_iter().map(gap).fold(0.0, f64::max)
 }

@@ -1,7 +1,9 @@
-//! Cells with more of an outline than a record holds: cut into strips, one record each.
+//! Splitting a cell with more segments than a record holds: into horizontal strips, one record
+//! each.
 //!
-//! A strip's record is empty above and below it, so the union of the strips is the shape: exactly
-//! so for points. A ramp of some footprint does not see edges of the strip next to its own.
+//! A strip's record is empty above and below the strip, so the union of all strips is the shape.
+//! For point lookups this is exact. The ramp of a lookup with a footprint does not see the edges of
+//! other strips, so coverage is slightly off within a ramp of the border between two strips.
 
 use std::collections::BTreeMap;
 
@@ -11,10 +13,10 @@ use vtex_format::{MAX_CURVE_SEGMENTS, MAX_CURVE_STEPS};
 use super::CurveError;
 use crate::drawing::FillRule;
 
-/// Strips of one shape in one cell. More entries than this cost more than they show: with 2,047
-/// lines each, some would lie within a hundredth of a pixel of each other at any zoom.
+/// Most strips of one shape in one cell. With 2,047 lines in each, a shape that needs more has
+/// lines within a hundredth of a pixel of each other at any zoom: it is better off as an image.
 const MAX_STRIPS: usize = 64;
-/// Largest base winding of a record, either way; a larger one becomes a step at the top.
+/// Largest base winding that a record can hold, either way. A larger one becomes a step at the top.
 const MAX_BASE: i32 = 511;
 
 /// A part of a cell between two heights.
@@ -22,19 +24,20 @@ const MAX_BASE: i32 = 511;
 struct Strip {
     top: f64,
     bottom: f64,
-    /// Winding on the left edge at the top.
+    /// Winding at the top of the left edge.
     winding: i32,
-    /// Changes on the left edge strictly between top and bottom.
+    /// Heights strictly between top and bottom at which the winding of the left edge changes, with
+    /// the change.
     steps: Vec<(f64, i32)>,
-    /// All between top and bottom.
+    /// Segments, all between top and bottom.
     segments: Vec<Segment>,
 }
 
-/// `cell` in as many parts as records need; most often itself. `size` is the side of the cell's box
-/// in units.
+/// The parts of `cell` that fit into a record each: itself, or strips. `size` is the side of the
+/// cell's box in units.
 ///
 /// # Errors
-/// [`CurveError::Overflow`] when no cut of at most [`MAX_STRIPS`] strips helps.
+/// [`CurveError::Overflow`] when [`MAX_STRIPS`] strips are not enough.
 pub(crate) fn split(
     cell: CellCurves,
     rule: FillRule,
@@ -51,6 +54,7 @@ pub(crate) fn split(
             parts.push(strip.into_cell(size));
         } else {
             let [upper, lower] = strip.halves().ok_or(CurveError::Overflow)?;
+            // The upper one is taken first, so parts come out from top to bottom.
             waiting.extend([lower, upper]);
         }
         if parts.len() + waiting.len() > MAX_STRIPS {
@@ -76,8 +80,9 @@ impl Strip {
         }
     }
 
-    /// Whether it makes a record, with a step more at either end.
+    /// Whether it fits into a record, with one more step at either end.
     fn fits(&self) -> bool {
+        // A record counts lines and quadratics apart, each with its own limit.
         let quads = self.segments.iter().filter(|s| s.control.is_some()).count();
         let lines = self.segments.len() - quads;
         let most = MAX_CURVE_SEGMENTS as usize;
@@ -94,11 +99,12 @@ impl Strip {
         self.winding + self.steps.iter().map(|step| step.1).sum::<i32>()
     }
 
-    /// The same picture with smaller windings.
+    /// The same inside with smaller windings and fewer steps.
     fn reduced(mut self, rule: FillRule) -> Self {
         match rule {
             FillRule::EvenOdd => {
                 self.winding = self.winding.rem_euclid(2);
+                // Only parity matters, so steps by an even number can go.
                 let steps = self.steps.into_iter();
                 self.steps = steps
                     .filter(|step| step.1 % 2 != 0)
@@ -106,9 +112,10 @@ impl Strip {
                     .collect();
             }
             FillRule::NonZero => {
+                // No point can have a winding further than this from that at the top left.
                 let changes: i64 = self.steps.iter().map(|step| i64::from(step.1.abs())).sum();
                 let most = changes + i64::try_from(self.segments.len()).unwrap_or(i64::MAX);
-                // What cannot come to zero anywhere is inside everywhere.
+                // Steps and segments together cannot bring the winding to zero: inside everywhere.
                 if i64::from(self.winding.abs()) > most {
                     self.winding = self.winding.signum();
                     self.steps.clear();
@@ -119,12 +126,17 @@ impl Strip {
         self
     }
 
-    /// Two strips of about as many segments each; `None` when that cannot help.
+    /// Two strips with about as many segments each; `None` when cutting cannot help, because too
+    /// many segments run through from top to bottom or the strip is one unit high.
     fn halves(self) -> Option<[Self; 2]> {
+        // A segment that spans the whole height stays in both halves: cutting cannot help if there
+        // are too many.
         let through = |s: &&Segment| s.start.y <= self.top && s.end.y >= self.bottom;
         if self.segments.iter().filter(through).count() > MAX_CURVE_SEGMENTS as usize {
             return None;
         }
+        // Cut at the median start, at an existing height: a cut there makes no new end points for
+        // segments that begin at it.
         let mut heights: Vec<f64> = self.segments.iter().map(|s| s.start.y).collect();
         heights.extend(self.steps.iter().map(|step| step.0));
         heights.retain(|&y| y > self.top && y < self.bottom);
@@ -135,6 +147,8 @@ impl Strip {
     }
 
     fn cut_at(self, height: f64) -> [Self; 2] {
+        // A step at the cut belongs to neither half; it is part of the winding that the lower one
+        // starts with.
         let before = |step: &&(f64, i32)| step.0 <= height;
         let change: i32 = self.steps.iter().filter(before).map(|step| step.1).sum();
         let mut upper = Self {
@@ -176,6 +190,8 @@ impl Strip {
 
     fn into_cell(self, size: f64) -> CellCurves {
         let last = self.last_winding();
+        // Only at the top of the box does the record have a base winding. Further down it starts at
+        // 0 and gets a step.
         let is_base = self.top <= 0.0 && self.winding.abs() <= MAX_BASE;
         let mut steps: BTreeMap<u16, i32> = self
             .steps
@@ -185,6 +201,7 @@ impl Strip {
         if !is_base && self.winding != 0 {
             steps.insert(height(self.top), self.winding);
         }
+        // Below the strip the record must be empty again.
         if self.bottom < size && last != 0 {
             steps.insert(height(self.bottom), -last);
         }
@@ -196,7 +213,7 @@ impl Strip {
     }
 }
 
-/// A height of a box, which is an integer of 16 bits.
+/// A height in a box as the record stores it: an integer of 16 bits.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

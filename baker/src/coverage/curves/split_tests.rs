@@ -1,4 +1,4 @@
-//! More of an outline in a cell than a record holds, baked whole, against the brute-force winding.
+//! Cells with more of an outline than a record holds, in whole bakes, against exact windings.
 
 use kurbo::{BezPath, Point, Rect, Shape as _};
 use vtex_format::{COVERAGE_CURVES, COVERAGE_IMAGE, Finding, VtexFile, WarningCode};
@@ -128,7 +128,7 @@ fn many_curves_in_a_cell() {
     assert_split_and_exact("circles", &outline, FillRule::EvenOdd);
 }
 
-/// Steps of a long comb's ends, left of the cell, are more than a record holds.
+/// A long comb ends to the left of the cell, in more steps than a record holds.
 #[test]
 fn more_steps_than_a_record_holds() {
     let mut outline = BezPath::new();
@@ -139,7 +139,7 @@ fn more_steps_than_a_record_holds() {
     assert_split_and_exact("comb", &outline, FillRule::NonZero);
 }
 
-/// Squares on each other: the winding falls from 1200 to zero inside the cell.
+/// Squares on top of each other: the winding falls from 1200 to zero inside the cell.
 #[test]
 fn more_winding_than_a_record_holds() {
     let mut outline = BezPath::new();
@@ -154,7 +154,7 @@ fn more_winding_than_a_record_holds() {
     }
 }
 
-/// No strip helps where everything runs from top to bottom: the shape becomes an image.
+/// Strips cannot help if everything runs from top to bottom: the shape becomes an image.
 #[test]
 fn a_scribble_of_fifty_thousand_segments_is_painted() {
     let mut random = Random(10);
@@ -184,7 +184,7 @@ fn a_scribble_of_fifty_thousand_segments_is_painted() {
     }
 }
 
-/// A translucent square over itself too often for a cell's list is refused in words.
+/// Too many translucent squares for one cell's list are refused with a clear error.
 #[test]
 fn too_many_entries_are_refused() {
     let square = |k: u32| {

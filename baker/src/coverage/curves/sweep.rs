@@ -1,4 +1,8 @@
-//! From a lowered outline to every cell it passes through or fills.
+//! Cutting a lowered outline to every cell that it crosses or fills.
+//!
+//! Rows of cells are swept from left to right. Segments wait until a box reaches them, are active
+//! while they meet boxes, and have passed when they lie to the left of all boxes to come. Passed
+//! segments are never looked at again: they stay as steps in a running sum.
 
 use std::ops::Range;
 
@@ -9,23 +13,23 @@ use vtex_format::{
 
 use super::lower::{self, LoweredOutline};
 
-/// What a shape is to the cells. Cells are indices, row by row from the top.
+/// Where a shape shows. Cells are indices, row by row from the top.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ShapeCurves {
-    /// Cells whose whole box has one winding, and which, ascending.
+    /// Cells whose whole box has one winding that is not 0, with that winding, ascending.
     pub(crate) covered: Vec<(u32, i32)>,
-    /// Cells with some outline in their box, ascending.
+    /// Cells with a part of the outline in their box, ascending.
     pub(crate) edges: Vec<(u32, CellCurves)>,
 }
 
-/// Where the cells are and how fine the cut is.
+/// The cells and the precision of the cut.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CutParams {
     /// Columns and rows.
     pub(crate) size_cells: [u32; 2],
-    /// The lattice whose units outlines are in; its origin is the grid's.
+    /// The curve lattice: outlines are in its units. Its origin is that of the grid.
     pub(crate) lattice: CurveLattice,
-    /// A quadratic that stays within this many units of its chord becomes a line.
+    /// A quadratic within this many units of its chord becomes a line.
     pub(crate) flatness_units: f64,
 }
 
@@ -42,7 +46,8 @@ impl CutParams {
         CellBox::of_cell([column, row], self.lattice, self.flatness_units)
     }
 
-    /// Cells along an axis of `count` whose boxes hold more than an end of `[low, high]`.
+    /// The cells along an axis of `count` cells whose boxes overlap `[low, high]`. Boxes that only
+    /// touch an end of it are left out.
     fn cells_along(&self, low: f64, high: f64, count: u32) -> Range<u32> {
         let first = (low - self.margin()) / self.cell_units();
         let end = (high + self.margin()) / self.cell_units();
@@ -59,11 +64,12 @@ fn clamp_index(x: f64, count: u32) -> u32 {
     x.clamp(0.0, f64::from(count)) as u32
 }
 
-/// Cuts `outline` to every cell.
+/// Cuts the outline to every cell.
 pub(crate) fn cut_to_cells(outline: &LoweredOutline, params: &CutParams) -> ShapeCurves {
     let [_, row_count] = params.size_cells;
     let mut by_row: Vec<Vec<Segment>> = vec![Vec::new(); row_count as usize];
     for segment in &outline.segments {
+        // A segment goes to every row whose boxes it reaches; boxes overlap by two margins.
         let rows = params.cells_along(segment.start.y, segment.end.y, row_count);
         for row in rows {
             by_row[row as usize].push(segment.into());
@@ -71,13 +77,15 @@ pub(crate) fn cut_to_cells(outline: &LoweredOutline, params: &CutParams) -> Shap
     }
     let mut shape = ShapeCurves::default();
     for (row, mut segments) in (0_u32..).zip(by_row) {
+        // Stable, so that equal keys keep the order of the outline: the bytes must not depend on
+        // the sort.
         segments.sort_by(|a, b| a.x_min().total_cmp(&b.x_min()));
         cut_row(&segments, row, params, &mut shape);
     }
     shape
 }
 
-/// `segments` are those that reach into the row's boxes, by their smallest x.
+/// Cuts one row. `segments` are those that reach into its boxes, sorted by their smallest x.
 fn cut_row(segments: &[Segment], row: u32, params: &CutParams, shape: &mut ShapeCurves) {
     let low = segments.first().map_or(f64::INFINITY, Segment::x_min);
     let high = segments
@@ -85,15 +93,17 @@ fn cut_row(segments: &[Segment], row: u32, params: &CutParams, shape: &mut Shape
         .fold(f64::NEG_INFINITY, |x, s| x.max(s.x_max()));
     let mut waiting = segments.iter().peekable();
     let mut active: Vec<&Segment> = Vec::new();
-    // What lies left of all boxes to come.
+    // The sum of all segments to the left of all boxes to come.
     let mut passed = CellCurves::default();
     for column in params.cells_along(low, high, params.size_cells[0]) {
         let cell = params.box_of(column, row);
         let right = cell.origin.x + cell.size;
+        // Strictly left of the right border: what only touches it is to the right.
         while let Some(segment) = waiting.next_if(|s| s.x_min() < right) {
             active.push(segment);
         }
         active.retain(|segment| {
+            // Nothing to the left of this box can reach a later one.
             let keep = segment.x_max() > cell.origin.x;
             if !keep {
                 passed.add(segment, &cell);
@@ -101,6 +111,7 @@ fn cut_row(segments: &[Segment], row: u32, params: &CutParams, shape: &mut Shape
             keep
         });
         let index = row * params.size_cells[0] + column;
+        // Steps of everything to the left, then what is in the box.
         let mut curves = passed.clone();
         for segment in &active {
             curves.add(segment, &cell);

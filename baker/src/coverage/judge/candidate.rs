@@ -1,4 +1,4 @@
-//! A lattice on which shapes are tried as distance fields.
+//! A size of the MSDF lattice that is tried.
 
 use crate::{
     config::BakeConfig,
@@ -6,14 +6,14 @@ use crate::{
     drawing::Drawing,
 };
 
-/// Steps of a stored distance over its range.
+/// Quanta of a stored distance over its range: a texel holds a byte.
 pub(super) const QUANTA: f64 = 255.0;
-/// Displacement by rounding alone in quanta, 99th percentile: 0.5 at most. Measured: 0.498 and more
-/// on squares at 60 angles; a little less for outlines that lie on the lattice by luck. A lattice on
-/// which even this is beyond the bound is not tried.
+/// How far rounding to bytes alone displaces an edge, in quanta, at the 99th percentile. It is 0.5
+/// at most. Measured: 0.498 and more on squares at 60 angles; less for outlines that happen to lie
+/// on the lattice. A lattice on which even this exceeds the bound is not tried.
 pub(super) const ROUNDING_QUANTA: f64 = 0.4;
 
-/// A lattice of distance fields and what it means for them.
+/// An MSDF lattice with what its error depends on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
     /// Texels along the canvas' longer side.
@@ -22,9 +22,9 @@ pub(super) struct Candidate {
     pub(super) lattice: Lattice,
     /// Its distances.
     pub(super) scales: Scales,
-    /// Pixels at the largest zoom a lattice step.
+    /// Pixels along a lattice step at the largest zoom.
     pub(super) px_per_step: f64,
-    /// How far an edge may be off.
+    /// How far an edge may be displaced, in such pixels.
     pub(super) error_px: f64,
 }
 
@@ -42,7 +42,7 @@ impl Candidate {
         }
     }
 
-    /// Whether eight bits may be fine enough.
+    /// Whether rounding to bytes leaves an error within the bound.
     pub(super) fn resolves(&self) -> bool {
         ROUNDING_QUANTA * self.scales.range / QUANTA * self.px_per_step <= self.error_px
     }

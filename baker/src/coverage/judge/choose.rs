@@ -1,4 +1,7 @@
-//! The size of the lattice, and with it the kind of each shape.
+//! Choosing the size of the MSDF lattice, and with it the kind of each shape.
+//!
+//! Cost decides, within the bound on the error. Bytes and time count as shares of what the drawing
+//! would cost with curves alone, so a small and a large drawing are judged alike.
 
 use rayon::prelude::*;
 use vtex_format::{FieldError, Finding};
@@ -21,27 +24,28 @@ use crate::{
     number::to_f32,
 };
 
-/// Lines of this mean width in steps or less are hairlines: no field holds both their edges.
-/// Measured: of 51 shapes of the Tiger that fail at 64 texels a shape, 39 are such strokes.
+/// Mean width of a hairline in steps, at most. Both edges then lie between the same texels, and no
+/// MSDF can hold both. Such shapes are not measured. Measured: of 51 shapes of the Tiger that fail
+/// at 64 texels for each shape, 39 are such strokes.
 const HAIRLINE_STEPS: f64 = 1.0;
 
-/// Fields must cost less than this share of what curves alone would: estimates are about as good,
-/// and a file of two kinds has the code of both.
+/// MSDFs must bring the cost below this share of what curves alone cost. Estimates are only about
+/// that precise, and a file with both kinds needs the shader code of both.
 const WORTHWHILE: f64 = 0.95;
 
-/// Bits of a float that reports keep: 7 of the mantissa.
+/// Bits of a float that reports keep: 7 of the mantissa, two to three digits. Zeros compress well.
 const SHORT_FLOAT: u32 = 0xFFFF_0000;
 
 /// A shape before its kind is known.
 struct Subject {
     prepared: Prepared,
-    /// Of the prepared outline.
+    /// Extent of the prepared outline, which an MSDF would show.
     extent: Extent,
-    /// Of the outline as drawn.
+    /// Extent of the outline as drawn, which curves would show.
     drawn: Extent,
 }
 
-/// What judging a shape at one size came to.
+/// The result of judging a shape at one size.
 #[derive(Clone, Copy, Debug)]
 struct Trial {
     finding: Finding,
@@ -49,7 +53,7 @@ struct Trial {
     measured: Option<Measured>,
 }
 
-/// The choice among sizes: a trial a shape, and whether it is to be a distance field.
+/// One size with its results: a trial for each shape, and whether it becomes an MSDF.
 struct Choice {
     size: u32,
     trials: Vec<Option<Trial>>,
@@ -59,9 +63,10 @@ struct Choice {
 
 /// Judges every shape at the sizes that may pay and takes what costs least.
 ///
-/// The least that a size can cost, every shape being what is cheaper, is known before anything is
-/// measured. Sizes are tried from the most promising on, until the next could not be better than
-/// what was found. The first is measured in any case, for the report.
+/// Measuring is slow, estimating is fast. The least that a size can cost is known before anything
+/// is measured: every shape is then the kind that is cheaper. Sizes are measured from the most
+/// promising on, until the next could not beat the best so far. The first is always measured, for
+/// the report.
 pub(super) fn choose(
     drawing: &Drawing,
     config: &BakeConfig,
@@ -73,6 +78,7 @@ pub(super) fn choose(
         .map(|candidate| (choosing.least_cost(candidate), candidate))
         .collect();
     promises.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // The cost of curves relative to itself is 2: a share of 1 in bytes and of 1 in time.
     let curves = WORTHWHILE * choosing.whole.relative_to(choosing.whole);
     let mut best: Option<Choice> = None;
     for (promise, candidate) in promises {
@@ -93,6 +99,7 @@ pub(super) fn choose(
             msdf_size: config.msdf_size,
         };
     };
+    // The trials stay for the report even if no MSDF is used.
     if best.cost >= curves {
         best.fields.fill(false);
     }
@@ -100,7 +107,7 @@ pub(super) fn choose(
 }
 
 impl Choice {
-    /// `msdf_size` is the size that stands where no shape becomes a field.
+    /// `msdf_size` is the size of the lattice if no shape becomes an MSDF.
     fn into_judgement(self, msdf_size: u32) -> Judgement {
         let has_fields = self.fields.contains(&true);
         let verdicts = self.trials.into_iter().zip(self.fields);
@@ -113,7 +120,7 @@ impl Choice {
     }
 }
 
-/// One subject an item; only shapes have one.
+/// One element for each item; only shapes have a subject.
 fn subjects(drawing: &Drawing, longer_side_px: f64) -> Vec<Option<Subject>> {
     let longer = drawing.longer_side();
     let subject = |item: &Item| match item {
@@ -131,7 +138,7 @@ fn subjects(drawing: &Drawing, longer_side_px: f64) -> Vec<Option<Subject>> {
     drawing.items.par_iter().map(subject).collect()
 }
 
-/// What all sizes are compared by.
+/// What all sizes have in common.
 struct Choosing {
     subjects: Vec<Option<Subject>>,
     mip0_size: u32,
@@ -157,17 +164,19 @@ impl Choosing {
         }
     }
 
-    /// The cost on the candidate's lattice if every shape that pays as a field could be one.
+    /// The least cost on the candidate's lattice: as if no MSDF could fail.
     fn least_cost(&self, candidate: &Candidate) -> f64 {
         self.cost(candidate, &vec![true; self.subjects.len()])
     }
 
-    /// The drawing's cost on the candidate's lattice, where shapes with a `true` may be distance
-    /// fields, as a multiple of `whole`.
+    /// The drawing's cost on the candidate's lattice, relative to `whole`. Shapes with a `true` may
+    /// become MSDFs; they do if that is cheaper.
     fn cost(&self, candidate: &Candidate, may_be_fields: &[bool]) -> f64 {
         let cost_of = |(subject, &may_be_field): (&Option<Subject>, &bool)| {
             let subject = subject.as_ref()?;
             let [field, curves] = subject.costs(candidate);
+            // A shape takes the cheaper kind, so the sum is a lower bound while nothing is known to
+            // fail.
             let is_field = may_be_field && subject.pays_as_field(candidate, self.whole);
             Some(if is_field { field } else { curves })
         };
@@ -179,6 +188,7 @@ impl Choosing {
             .relative_to(self.whole)
     }
 
+    /// Measures every shape on the candidate's lattice.
     fn try_candidate(&self, candidate: &Candidate) -> Choice {
         let trials: Vec<Option<Trial>> = self
             .subjects
@@ -206,7 +216,7 @@ impl Choosing {
 }
 
 impl Subject {
-    /// As a distance field, and as curves.
+    /// The shape's cost as an MSDF, and as curves.
     fn costs(&self, candidate: &Candidate) -> [Cost; 2] {
         let margin = candidate.scales.distances.margin;
         [
@@ -215,7 +225,8 @@ impl Subject {
         ]
     }
 
-    /// Whether a distance field costs less than curves; what shows nowhere is curves.
+    /// Whether an MSDF costs less than curves. A shape that does not show costs nothing either way
+    /// and becomes curves.
     fn pays_as_field(&self, candidate: &Candidate, whole: Cost) -> bool {
         let [field, curves] = self.costs(candidate).map(|cost| cost.relative_to(whole));
         field < curves
@@ -228,7 +239,10 @@ impl Subject {
             size_texels: placed.size_texels(),
             measured,
         };
+        // The transform scales both axes alike, because cells are square in user units.
         let units_per_step = candidate.lattice.lattice_from_canvas.as_coeffs()[0].recip();
+        // Without contours that are free of overlaps distances have no sign. No measurement is
+        // needed.
         if self.prepared.note == Note::Failed {
             return trial(Finding::Overlaps, None);
         }
@@ -256,6 +270,7 @@ fn verdict(trial: Option<Trial>, field: bool) -> Verdict {
             Coverage::Curves
         },
         finding: match trial.finding {
+            // The MSDF would have been good enough, so it was the cost.
             Finding::None if !field => Finding::Cost,
             finding => finding,
         },
@@ -266,7 +281,7 @@ fn verdict(trial: Option<Trial>, field: bool) -> Verdict {
     }
 }
 
-/// Two to three digits are enough for a report, and pack well.
+/// The measured error as reports keep it.
 fn error_record(p99_px: f64, wrong_share: f64) -> FieldError {
     let short = |x: f64| f32::from_bits(to_f32(x).to_bits() & SHORT_FLOAT);
     FieldError {

@@ -1,23 +1,25 @@
-//! What a kind of coverage costs: bytes in the file and time in a lookup.
+//! What a kind of coverage costs: bytes in the file and time of a lookup.
+//!
+//! Both follow from how many cells list a shape and how many segments those cells hold. The counts
+//! are estimated from the outline's length, width and number of segments, so that many lattice
+//! sizes can be compared without cutting anything.
 
 use kurbo::{Affine, BezPath, Rect, Shape as _};
 
 use super::candidate::Candidate;
 use crate::{
-    coverage::{curves::lower::LoweredOutline, grid::Lattice},
+    coverage::{curve_lattice::UNIT_PX, curves::lower::LoweredOutline, grid::Lattice},
     geometry::{clip_line, flatten},
     number::count,
 };
 
-/// Sides of unit boxes that a line of length 1 crosses, averaged over directions.
+/// How many sides of unit squares a line of length 1 crosses, averaged over directions.
 const CROSSINGS: f64 = 4.0 / std::f64::consts::PI;
-/// Unit of curve records in pixels at the largest zoom, and how many of them lowering may move a
-/// curve: about what cells use, for counting only.
-const UNIT_PX: f64 = 0.04;
+/// How far lowering may move a curve when segments are counted, in units of [`UNIT_PX`]. About what
+/// records use.
 const TOLERANCE_UNITS: f64 = 1.25;
 
-/// What parts of a file cost. The one place for these numbers; where they come from stands in
-/// docs/decisions/0008-judge.md.
+/// What the parts of a file cost. docs/decisions/0008-judge.md says how these numbers were found.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rates {
     /// Stored bytes of a file without shapes, but with shader and mips.
@@ -44,7 +46,8 @@ pub(super) struct Rates {
     pub(super) segment_ns: f64,
 }
 
-/// Bytes from files of the corpus, times from llvmpipe, whose lanes wait for each other as a GPU's do.
+/// Bytes are from files of the corpus. Times are from llvmpipe, whose lanes wait for each other as
+/// those of a GPU do.
 pub(super) const RATES: Rates = Rates {
     file_bytes: 16_384.0,
     mip_texel_bytes: 0.3,
@@ -69,7 +72,7 @@ pub(super) struct Cost {
 }
 
 impl Cost {
-    /// Both together.
+    /// The sum.
     pub(super) fn plus(self, other: Self) -> Self {
         Self {
             bytes: self.bytes + other.bytes,
@@ -77,14 +80,14 @@ impl Cost {
         }
     }
 
-    /// One number: a share of bytes weighs as much as the same share of time, whatever the size of
-    /// the drawing. `whole` is what the drawing costs as curves.
+    /// One number to compare by: a share of the bytes weighs as much as the same share of the time.
+    /// `whole` is what the drawing costs as curves.
     pub(super) fn relative_to(self, whole: Self) -> f64 {
         self.bytes / whole.bytes + self.ns / whole.ns
     }
 }
 
-/// The costs of a file that are not its shapes'.
+/// The cost of a file without shapes.
 pub(super) fn ground(lattice: &Lattice, mip0_size: u32) -> Cost {
     let aspect = lattice.canvas.area() / lattice.longer_steps().powi(2);
     let mip_texels = f64::from(mip0_size).powi(2) * aspect;
@@ -96,26 +99,28 @@ pub(super) fn ground(lattice: &Lattice, mip0_size: u32) -> Cost {
     }
 }
 
-/// What a shape's costs follow from; user units.
+/// What the cost of a shape follows from. Lengths are in user units.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Extent {
     /// Length of the outline on the canvas.
     length: f64,
-    /// Mean width: twice the area over the length, all of the shape.
+    /// Mean width of the whole shape: twice the area over the length of the outline.
     pub(super) width: f64,
     /// The part of its box that lies on the canvas.
     visible: Rect,
-    /// Contours.
+    /// Number of contours.
     contours: f64,
-    /// Segments on the canvas, as curve records would hold them.
+    /// Number of segments on the canvas, as curve records would hold them.
     segments: f64,
 }
 
 impl Extent {
-    /// Of an outline on a canvas whose longer side is `longer_side_px` pixels at the largest zoom.
+    /// The extent of an outline on a canvas whose longer side is `longer_side_px` pixels at the
+    /// largest zoom.
     pub(super) fn new(outline: &BezPath, canvas_size: [f64; 2], longer_side_px: f64) -> Self {
         let canvas = Rect::new(0.0, 0.0, canvas_size[0], canvas_size[1]);
         let tolerance = 1e-3 * canvas.width().max(canvas.height());
+        // The whole outline gives the width; only the part on the canvas is stored and looked up.
         let (mut whole, mut length) = (0.0, 0.0);
         let contours = flatten(outline, tolerance);
         for contour in &contours {
@@ -128,6 +133,7 @@ impl Extent {
         if length <= 0.0 {
             return Self::default();
         }
+        // Lower it as records would, only to count the segments.
         let px = longer_side_px / canvas.width().max(canvas.height());
         let lowered =
             LoweredOutline::new(&(Affine::scale(px / UNIT_PX) * outline), TOLERANCE_UNITS);
@@ -141,17 +147,22 @@ impl Extent {
         }
     }
 
-    /// How many cells on `lattice` list the shape, each cell widened by `margin` steps.
+    /// How many cells of `lattice` list the shape, if each is widened by `margin` steps.
     ///
-    /// A line of length L meets `s^2 + 4/pi s L` boxes of side s on a unit lattice, averaged over
-    /// directions and places; both edges of a thin shape lie in the same boxes.
+    /// A line of length L meets `s^2 + 4/pi s L` squares of side s around the cells of a unit grid,
+    /// averaged over directions and places. Both edges of a thin shape lie in the same squares, so
+    /// its length counts half.
     fn listed_cells(&self, lattice: &Lattice, margin: f64) -> f64 {
         let units_per_step = self.units_per_step(lattice);
         let cell = lattice.cell_steps() * units_per_step;
         let side = 1.0 + 2.0 * margin / lattice.cell_steps();
+        // 0 for a hairline, whose two edges share all squares; 1 for a shape wider than a square.
         let thickness = (self.width / (side * cell)).min(1.0);
         let length = self.length / cell * 0.5 * (1.0 + thickness);
+        // Each contour is a closed line of its own, so each adds the square that it starts in.
         let along = self.contours * side * side + CROSSINGS * side * length;
+        // No more than the cells under the box of the shape: a dense outline meets the same cells
+        // often.
         let [columns, rows] = [self.visible.width(), self.visible.height()];
         along.min((columns / cell + side) * (rows / cell + side))
     }
@@ -160,13 +171,14 @@ impl Extent {
         1.0 / lattice.lattice_from_canvas.as_coeffs()[0]
     }
 
-    /// As tiles on the candidate's lattice.
+    /// The cost as MSDF tiles on the candidate's lattice.
     pub(super) fn as_msdf(&self, candidate: &Candidate) -> Cost {
         let lattice = &candidate.lattice;
         if self.length <= 0.0 {
             return Cost::default();
         }
         let listed = self.listed_cells(lattice, candidate.scales.distances.margin);
+        // A tile repeats the texels of its border.
         let texels = (lattice.cell_steps() + 1.0).powi(2);
         Cost {
             bytes: listed * (RATES.entry_bytes + RATES.texel_bytes * texels),
@@ -174,13 +186,13 @@ impl Extent {
         }
     }
 
-    /// As curve records on a lattice whose cells list edges within `margin` steps.
+    /// The cost as curve records on a lattice whose cells list edges within `margin` steps.
     pub(super) fn as_curves(&self, lattice: &Lattice, margin: f64) -> Cost {
         if self.length <= 0.0 {
             return Cost::default();
         }
         let listed = self.listed_cells(lattice, margin);
-        // The same law for each segment by itself.
+        // The same law for each segment alone.
         let side = 1.0 + 2.0 * margin / lattice.cell_steps();
         let length = self.length / (lattice.cell_steps() * self.units_per_step(lattice));
         let segments = self.segments * side * side + CROSSINGS * side * length;

@@ -1,6 +1,10 @@
-//! How far a shape's distance field is off, and where.
+//! The error of a shape's MSDF: how far it displaces the edge, and where.
+//!
+//! The tiles of the shape are rendered as the file would store them and interpolated as evaluators
+//! do. Probes along the edge ask how far away the field changes its sign; probes on both sides and
+//! all over the cells ask whether the sign is right.
 
-use kurbo::{BezPath, Line, ParamCurve, ParamCurveDeriv, PathSeg, Point, Vec2};
+use kurbo::{BezPath, Line, ParamCurve, PathSeg, Point, Vec2};
 use rayon::prelude::*;
 use vtex_format::Finding;
 
@@ -11,78 +15,81 @@ use crate::{
         msdf::render_tile,
         placed::Placed,
     },
-    geometry::{flatten, line_line_distance},
-    number::floor_index,
+    geometry::{flatten, line_line_distance, spread_point, tangent},
+    number::{count, floor_index},
 };
 
-/// Share of probes around the edge that a distance field may put on the wrong side.
+/// Share of probes that the field may put on the wrong side.
 pub(super) const WRONG_SHARE_BOUND: f64 = 1e-3;
-/// Distance of probes along the outline in steps; texels are a step apart. More where there would
-/// be too many.
+/// Distance between probes along the outline, in steps. Texels are one step apart. It grows where
+/// there would be more than [`MAX_PROBES`].
 const PROBE_STEPS: f64 = 0.25;
-/// Probes of one shape: bounds the time for long outlines, and a p99 rests on 600 of them.
+/// Most probes of one shape: bounds the time for long outlines. A 99th percentile of as many rests
+/// on the 600 largest errors.
 const MAX_PROBES: f64 = 65_536.0;
-/// Errors that are asked for their cause, spread over all.
+/// Most errors whose cause is determined, spread over all errors.
 const MAX_CAUSES: usize = 1024;
-/// How far probes may lie beside the outline, as a share of the bound on the error.
+/// How far a probe may be from the outline, as a share of the bound on the error.
 const FOLLOW_SHARE: f64 = 0.02;
-/// Probes beside the edge stand off by this many times the bound on the error.
+/// Distance of probes beside the edge, in multiples of the bound on the error.
 const STAND_OFF: f64 = 2.0;
-/// Displacements are followed this far, in this many strides that grow evenly.
+/// How far the search for a displaced edge goes, in steps, and in how many strides. Strides grow
+/// evenly, because small displacements matter most.
 const WALK_REACH_STEPS: f64 = 2.0;
 const WALK_STRIDES: u32 = 64;
-/// Edges of slivers thinner than this share of the bound on the error show nothing and are not
-/// asked about. More than [`FOLLOW_SHARE`].
+/// Slivers thinner than this share of the bound on the error cannot be seen; their edges are not
+/// probed. More than [`FOLLOW_SHARE`], or probes beside the outline would look like slivers.
 const SLIVER_SHARE: f64 = 0.1;
-/// No field is taken to be flatter than this, distance a step.
+/// Smallest slope of the field that a displacement is estimated with, in steps of distance for each
+/// step.
 const FLATTEST_SLOPE: f64 = 0.25;
-/// Where a shape or a gap in it is thinner than this many steps, its two edges share texels.
+/// Thickness of a shape or gap, in steps, below which its two edges share texels.
 const THIN_STEPS: f64 = 1.5;
-/// Errors nearer than this to a sharp corner are put down to it: a corner of 20 degrees is thinner
-/// than [`THIN_STEPS`] as far as that.
+/// Errors nearer than this to a sharp corner are attributed to it. A corner of 20 degrees is
+/// thinner than [`THIN_STEPS`] up to this distance.
 const CUSP_REACH_STEPS: f64 = 4.0;
-/// Cosine of the largest angle of a corner that counts as sharp: 30 degrees.
+/// Cosine of the largest angle of a sharp corner: 30 degrees.
 const CUSP_COSINE: f64 = 0.866;
 
-/// Error of a distance field at the wanted zoom.
+/// The error of an MSDF at the largest zoom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Measured {
-    /// 99th percentile of the edge's displacement, in pixels.
+    /// 99th percentile of the displacement of the edge, in pixels.
     pub(super) p99_px: f64,
-    /// Share of probes around the edge that come out on the wrong side.
+    /// Share of probes that the field puts on the wrong side.
     pub(super) wrong: f64,
-    /// Where most of the error is, if it is beyond the bound.
+    /// What most errors beyond the bound are near to.
     pub(super) cause: Finding,
 }
 
 impl Measured {
-    /// Whether the field may stand for the shape.
+    /// Whether the MSDF may represent the shape.
     pub(super) fn within(&self, error_px: f64) -> bool {
         self.p99_px <= error_px && self.wrong <= WRONG_SHARE_BOUND
     }
 }
 
-/// Measures the field that `placed`, on the candidate's lattice, would have by itself.
+/// Measures the MSDF that `placed`, which lies on the candidate's lattice, would have alone.
 pub(super) fn measure(placed: &Placed, candidate: &Candidate) -> Measured {
     Field::new(placed, candidate).measure()
 }
 
-/// The distance field of one shape alone.
+/// The MSDF of one shape alone.
 struct Field<'a> {
     placed: &'a Placed,
     candidate: &'a Candidate,
     cells: ShapeCells,
-    /// One a cell of [`ShapeCells::listed`].
+    /// One tile for each cell of [`ShapeCells::listed`].
     tiles: Vec<Vec<u8>>,
 }
 
-/// What probes found.
+/// What the probes found.
 #[derive(Default)]
 struct Tally {
     displacements_px: Vec<f64>,
     compared: u32,
     wrong: u32,
-    /// Places of errors beyond the bound, with a normal where they lie on the edge.
+    /// Places of errors beyond the bound, with the normal of the edge if they lie on one.
     errors: Vec<(Point, Vec2)>,
 }
 
@@ -91,6 +98,7 @@ impl<'a> Field<'a> {
         let Candidate {
             lattice, scales, ..
         } = candidate;
+        // Exactly the tiles that the bake would store if the shape were alone.
         let cells = classify(placed, lattice, scales.distances);
         let tile = |&cell: &u32| {
             let shapes = vec![cells.tile_shape(cell, &placed.region)];
@@ -118,17 +126,20 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Along the edge for its displacement, and beside it for the side.
+    /// Probes along the edge for its displacement, and beside it for the sign.
     fn probe_edges(&self, tally: &mut Tally) {
         let Candidate {
             px_per_step,
             error_px,
             ..
         } = *self.candidate;
+        // From pixels at the largest zoom to steps of the lattice.
         let stand_off = STAND_OFF * error_px / px_per_step;
         let tolerance = FOLLOW_SHARE * error_px / px_per_step;
         let sliver = SLIVER_SHARE * error_px / px_per_step;
         for (p, normal) in probes(&self.placed.outline, tolerance) {
+            // The outline passes here only if the two sides differ. They do not where contours
+            // overlap or where a sliver is too thin to see.
             let sides = [p + sliver * normal, p - sliver * normal];
             let [left, right] = sides.map(|p| self.placed.region.contains(p));
             let Some(distance) = self.distance(p).filter(|_| left != right) else {
@@ -136,12 +147,14 @@ impl<'a> Field<'a> {
             };
             let beside = [1.0, -1.0].map(|side| p + side * stand_off * normal);
             let around = beside.map(|beside| self.distance(beside));
-            // Where two edges mix, the field is flatter than a distance and its zero further off.
+            // Where two edges mix, the field is flatter than a true distance, and its zero is
+            // further away than the value says. The slope corrects that.
             let slope = match around {
                 [Some(a), Some(b)] => ((a - b) / (2.0 * stand_off)).abs(),
                 _ => 1.0,
             };
             let guess = distance.abs() / slope.clamp(FLATTEST_SLOPE, 1.0) * px_per_step;
+            // The estimate is good while it is small; a large one is checked by walking.
             let off = if guess > error_px {
                 let inwards = if left { normal } else { -normal };
                 self.displacement(p, distance, inwards) * px_per_step
@@ -164,8 +177,8 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// All over the cells that the edge passes through, one point between every four texels: the
-    /// median of three fields can be wrong far from any edge.
+    /// Probes all over the cells that the edge crosses, one between every four texels: the median
+    /// of three channels can have the wrong sign far from any edge.
     fn probe_cells(&self, tally: &mut Tally) {
         let lattice = &self.candidate.lattice;
         let columns = lattice.grid.size_cells[0];
@@ -173,11 +186,10 @@ impl<'a> Field<'a> {
         for &cell in &self.cells.listed {
             let corner = [cell % columns, cell / columns].map(|index| index * steps);
             for k in 0..steps * steps {
-                // The additive recurrence R2 of Roberts (2018) spreads points within the texels.
-                let within = |share: f64| (f64::from(k + 1) * share).fract();
+                let [u, v] = spread_point(k + 1);
                 let p = Point::new(
-                    f64::from(corner[0] + k % steps) + within(0.754_877_666_246_692_8),
-                    f64::from(corner[1] + k / steps) + within(0.569_840_290_998_053_3),
+                    f64::from(corner[0] + k % steps) + u,
+                    f64::from(corner[1] + k / steps) + v,
                 );
                 let Some(distance) = self.distance(p) else {
                     continue;
@@ -191,8 +203,8 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Whether a stored `distance` at `p` has the wrong sign, further from the edge than the bound
-    /// on the error.
+    /// Whether the stored `distance` at `p` has the wrong sign and `p` is further from the edge
+    /// than the bound on the error.
     fn is_wrong(&self, p: Point, distance: f64) -> bool {
         if (distance > 0.0) == self.placed.region.contains(p) {
             return false;
@@ -203,16 +215,19 @@ impl<'a> Field<'a> {
         lines.all(|line| line_line_distance(line, Line::new(p, p)) > bound)
     }
 
-    /// Steps from the edge at `p`, where the field says `distance`, to where it changes sign: inwards
-    /// if it says outside, else outwards. Beyond the middle of the shape, or of the gap beside it,
-    /// the next edge answers; where nothing changes before, the two have met there.
+    /// Steps from the edge at `p` to the place where the field changes its sign. The field at `p`
+    /// is `distance`: if that is outside, the walk goes inwards, else outwards. It ends at the
+    /// middle of the shape or of the gap, because beyond it the next edge answers. If the sign has
+    /// not changed by then, the two edges have merged, and the middle is the result.
     fn displacement(&self, p: Point, distance: f64, inwards: Vec2) -> f64 {
         let grown = distance > 0.0;
         let along = if grown { -inwards } else { inwards };
+        // Squares of even fractions: the first stride is 1/4096 of the reach.
         let spans = (1..=WALK_STRIDES)
             .map(|k| WALK_REACH_STEPS * (f64::from(k) / f64::from(WALK_STRIDES)).powi(2));
         let next_edge = |s: f64| self.placed.region.contains(p + s * along) == grown;
         let next = spans.clone().find(|&s| next_edge(s));
+        // Half way to the next edge, if there is one within reach.
         let most = next.map_or(WALK_REACH_STEPS, |s| 0.5 * s);
         let changes = |s: f64| {
             self.distance(p + s * along)
@@ -222,11 +237,12 @@ impl<'a> Field<'a> {
         found.unwrap_or(most)
     }
 
-    /// What most of the errors are near to.
+    /// What most of the errors are near to. A sharp corner is thin too, so it is asked about first.
     fn cause(&self, errors: &[(Point, Vec2)]) -> Finding {
         let cusps = cusps(&self.placed.outline);
         let near_cusp = |p: Point| cusps.iter().any(|c| (*c - p).hypot() < CUSP_REACH_STEPS);
         let (mut at_cusps, mut thin) = (0, 0);
+        // Ask an even selection, because near a bad corner errors are many and alike.
         let every = errors.len().div_ceil(MAX_CAUSES).max(1);
         let asked = errors.iter().step_by(every);
         for &(p, normal) in asked.clone() {
@@ -237,6 +253,7 @@ impl<'a> Field<'a> {
             }
         }
         match asked.len() {
+            // The largest group names the cause, unless most errors have none of these.
             0 => Finding::None,
             all if 2 * at_cusps >= all && at_cusps >= thin => Finding::Cusp,
             all if 2 * (thin + at_cusps) >= all => Finding::ThinFeature,
@@ -248,11 +265,12 @@ impl<'a> Field<'a> {
     fn is_thin(&self, p: Point, normal: Vec2) -> bool {
         [normal, -normal].into_iter().any(|outwards| {
             let at = |steps: f64| self.placed.region.contains(p + steps * outwards);
+            // Just outside the edge against further out: they differ if another edge lies between.
             at(0.05) != at(THIN_STEPS)
         })
     }
 
-    /// The cell at `p`; `None` beside the canvas.
+    /// The cell that contains `p`; `None` beside the canvas.
     fn cell_at(&self, p: Point) -> Option<u32> {
         let lattice = &self.candidate.lattice;
         if !lattice.canvas.contains(p) {
@@ -263,8 +281,8 @@ impl<'a> Field<'a> {
         u32::try_from(cell).ok()
     }
 
-    /// The stored distance at `p` in steps, positive inside, as evaluators interpolate it; `None`
-    /// beside the canvas and where the shape has no tile.
+    /// The distance at `p` in steps, positive inside, interpolated as evaluators do; `None` beside
+    /// the canvas and where the shape has no tile.
     fn distance(&self, p: Point) -> Option<f64> {
         let lattice = &self.candidate.lattice;
         let cell = self.cell_at(p)?;
@@ -272,23 +290,23 @@ impl<'a> Field<'a> {
         let n = lattice.cell_steps();
         let [column, row] = [p.x / n, p.y / n].map(floor_index);
         let side = lattice.grid.texels_per_cell as usize + 1;
-        #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
-        let q = [p.x - column as f64 * n, p.y - row as f64 * n];
+        let q = [p.x - count(column) * n, p.y - count(row) * n];
+        // The last texel of the tile is only ever the far end of an interpolation.
         let [x, y] = q.map(|v| floor_index(v).min(side - 2));
-        #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
-        let [fx, fy] = [q[0] - x as f64, q[1] - y as f64];
+        let [fx, fy] = [q[0] - count(x), q[1] - count(y)];
         let channel = |i: usize| {
             let texel = |x: usize, y: usize| f64::from(tile[4 * (y * side + x) + i]);
             let row = |y: usize| texel(x, y) * (1.0 - fx) + texel(x + 1, y) * fx;
             row(y) * (1.0 - fy) + row(y + 1) * fy
         };
         let [r, g, b] = [0, 1, 2].map(channel);
+        // Evaluators use the same median; it rebuilds sharp corners from three smooth fields.
         let median = r.min(g).max(r.max(g).min(b));
         Some((median / 255.0 - 0.5) * self.candidate.scales.range)
     }
 }
 
-/// Points evenly spread along an outline, which is followed within `tolerance`, with unit normals.
+/// Points evenly spread along an outline, with unit normals. They lie within `tolerance` of it.
 fn probes(outline: &BezPath, tolerance: f64) -> Vec<(Point, Vec2)> {
     let contours = flatten(outline, tolerance);
     let lines = || {
@@ -298,7 +316,7 @@ fn probes(outline: &BezPath, tolerance: f64) -> Vec<(Point, Vec2)> {
     let whole: f64 = lines().map(|line| (line.p1 - line.p0).hypot()).sum();
     let spacing = PROBE_STEPS.max(whole / MAX_PROBES);
     let mut probes = Vec::new();
-    // Half a spacing before the first.
+    // The first probe is half a spacing from the start of the outline.
     let mut at = 0.5 * spacing;
     for line in lines() {
         let along = line.p1 - line.p0;
@@ -308,20 +326,13 @@ fn probes(outline: &BezPath, tolerance: f64) -> Vec<(Point, Vec2)> {
             probes.push((line.p0 + along * (at / length), normal));
             at += spacing;
         }
+        // What is left of the spacing carries over to the next line.
         at -= length;
     }
     probes
 }
 
-fn tangent(segment: &PathSeg, t: f64) -> Vec2 {
-    match segment {
-        PathSeg::Line(line) => line.p1 - line.p0,
-        PathSeg::Quad(quad) => quad.deriv().eval(t).to_vec2(),
-        PathSeg::Cubic(cubic) => cubic.deriv().eval(t).to_vec2(),
-    }
-}
-
-/// Corners of closed contours where the outline nearly turns back.
+/// Sharp corners of closed contours: where the outline nearly turns back.
 fn cusps(outline: &BezPath) -> Vec<Point> {
     let mut cusps = Vec::new();
     let mut first: Option<PathSeg> = None;
@@ -330,6 +341,7 @@ fn cusps(outline: &BezPath) -> Vec<Point> {
         if let (Some(before), Some(after)) = (before, after)
             && before.end() == after.start()
         {
+            // Not at the ends themselves, where a handle may have no length.
             let [back, on] = [-tangent(&before, 0.99), tangent(&after, 0.01)].map(Vec2::normalize);
             if back.dot(on) > CUSP_COSINE {
                 cusps.push(after.start());
@@ -337,6 +349,7 @@ fn cusps(outline: &BezPath) -> Vec<Point> {
         }
     };
     for segment in outline.segments() {
+        // A segment that does not start where the last one ended begins a contour.
         let continues = last.is_some_and(|last| last.end() == segment.start());
         if continues {
             visit(last, Some(segment));

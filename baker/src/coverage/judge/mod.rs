@@ -1,5 +1,9 @@
-//! Which kind of coverage a shape gets: a distance field where that is good enough and costs no
-//! more, else curves.
+//! The judge: MSDF or curves for each shape.
+//!
+//! A shape becomes an MSDF if its error is within the bound and it costs less than curves. The size
+//! of the MSDF lattice is decided too, because all shapes share it. The error is measured on the
+//! tiles themselves, against exact inside tests ([`measure`]); the cost is estimated from the
+//! outline ([`cost`]); [`choose`] weighs them. Decision 0008 has the reasons and figures.
 
 use vtex_format::Finding;
 
@@ -18,10 +22,10 @@ mod tests;
 
 use candidate::Candidate;
 
-/// Smallest lattice that is tried.
+/// Texels of the smallest lattice that is tried.
 const SMALLEST_SIZE: u32 = 32;
 
-/// Judges every item of `drawing`. The same at any thread count.
+/// Judges every item. The result is the same at any number of threads.
 pub(crate) fn judge(drawing: &Drawing, config: &BakeConfig) -> Judgement {
     let all = |verdict| Judgement {
         verdicts: vec![verdict; drawing.items.len()],
@@ -32,7 +36,7 @@ pub(crate) fn judge(drawing: &Drawing, config: &BakeConfig) -> Judgement {
         Mode::Msdf | Mode::Raster => return all(Verdict::forced(Coverage::Msdf)),
         Mode::Auto => {}
     }
-    // Outlines around shapes and layers of shapes that touch are what distance fields are for.
+    // Distance outlines and forced merges are features of distance fields alone.
     if config.outline_texels.is_some() || config.merge {
         return all(Verdict::forced(Coverage::Msdf));
     }
@@ -48,8 +52,8 @@ pub(crate) fn judge(drawing: &Drawing, config: &BakeConfig) -> Judgement {
     choose::choose(drawing, config, &candidates)
 }
 
-/// 32, 48, 64, 96, 128, ... and `largest`, ascending. The lattice is one for the whole canvas,
-/// because all cells of the grid share it: a size is that of the canvas' longer side.
+/// The sizes to try: 32, 48, 64, 96, 128, ... and `largest`, ascending. A size is that of the
+/// canvas' longer side.
 fn sizes(largest: u32) -> Vec<u32> {
     let doubled = std::iter::successors(Some(SMALLEST_SIZE), |size| size.checked_mul(2));
     let mut sizes: Vec<u32> = doubled

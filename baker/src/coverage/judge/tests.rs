@@ -1,4 +1,4 @@
-//! The judge against a dense check of its own: fields as baked, through the evaluator's twin.
+//! The judge against a denser check: MSDFs as baked, looked up by the evaluator's twin.
 
 #![expect(clippy::print_stdout, reason = "the figures are wanted")]
 
@@ -59,7 +59,7 @@ fn alone(canvas_size: [f64; 2], shape: &Shape) -> Drawing {
     Drawing::flat(canvas_size, vec![shape])
 }
 
-/// What a dense check finds in the field of one shape, baked by itself.
+/// What a dense check finds in the MSDF of one shape that is baked alone.
 #[derive(Debug)]
 struct Dense {
     p99_px: f64,
@@ -106,7 +106,7 @@ fn dense_check(canvas_size: [f64; 2], shape: &Shape, config: &BakeConfig) -> Den
             let p = segment.eval(t);
             let along = segment.eval((t + 1e-4).min(1.0)) - segment.eval((t - 1e-4).max(0.0));
             let normal = Vec2::new(-along.y, along.x).normalize();
-            // Edges inside the shape are none.
+            // Where contours overlap, an edge inside the shape does not count.
             let sides = [p + near * normal, p - near * normal].map(|p| truth.contains(p));
             if !normal.is_finite() || !on_canvas(p) || sides[0] == sides[1] {
                 continue;
@@ -128,7 +128,7 @@ fn dense_check(canvas_size: [f64; 2], shape: &Shape, config: &BakeConfig) -> Den
     }
 }
 
-/// Whether nothing around `p` within `reach` lies on another side than `p`.
+/// Whether everything within `reach` of `p` is on the same side as `p`.
 fn is_clear(truth: &Region, p: Point, reach: f64) -> bool {
     let here = truth.contains(p);
     (0..16).all(|k| {
@@ -137,8 +137,9 @@ fn is_clear(truth: &Region, p: Point, reach: f64) -> bool {
     })
 }
 
-/// How far from the edge at `p` the picture changes: inwards where `p` is not filled, else outwards.
-/// An edge that vanished has met the next one, of the shape or of a gap in it, halfway.
+/// How far from the edge at `p` the picture changes: inwards where `p` is not filled, else
+/// outwards. An edge that has vanished has met the next one, of the shape or of a gap in it,
+/// halfway.
 fn displacement(
     filled: &impl Fn(Point) -> bool,
     truth: &Region,
@@ -168,8 +169,8 @@ fn samples() -> Vec<(&'static str, Drawing)> {
     names.map(|name| (name, drawing(name))).into()
 }
 
-/// Shapes of real drawings on lattices and with bounds about the limit: what the judge calls good
-/// is good, what it rejects is not.
+/// Shapes of real drawings on lattices and with bounds near the limit: the judge accepts what is
+/// good and rejects what is not.
 #[test]
 fn the_judge_is_right_about_real_shapes() {
     let (mut good, mut bad, mut in_vain) = (0, 0, 0);
@@ -209,8 +210,8 @@ fn the_judge_is_right_about_real_shapes() {
         }
     }
     println!("{good} good, {bad} rejected, {in_vain} of them in vain");
-    // A field rejected in vain costs bytes, not looks: needles whose tips evenly spread probes meet
-    // and random ones miss.
+    // A field that is rejected without need costs bytes but no quality. It happens with needles,
+    // whose tips evenly spread probes meet and random ones miss.
     assert!(in_vain * 10 <= bad, "{in_vain} of {bad}");
     let enough = good > 20 && bad > 40;
     assert!(samples.is_empty() || enough, "{good} good, {bad} bad");
@@ -277,7 +278,7 @@ fn hairlines_are_curves_unmeasured() {
     }
 }
 
-/// Where errors are, and why.
+/// The cause of errors is named.
 #[test]
 fn causes_are_named() {
     let path = |text: &str| BezPath::from_svg(text).unwrap();
@@ -349,7 +350,7 @@ fn auto_takes_fields_where_they_pay_and_they_keep_the_bound() {
     }
 }
 
-/// A finer bound never makes a coarser lattice, as long as the shapes stay fields.
+/// A smaller bound never leads to a coarser lattice, as long as the shapes stay MSDFs.
 #[test]
 fn the_size_follows_the_error() {
     let mut before = 0;
@@ -413,8 +414,8 @@ fn sizes_double_and_add_half() {
     assert_eq!(sizes(16), [16]);
 }
 
-/// Sizes are passed over where rounding alone is beyond the bound: what it does to straight edges
-/// at every angle is never less than what the rule assumes.
+/// Sizes are skipped if rounding alone exceeds the bound. The error that the rule assumes is never
+/// more than rounding really does to straight edges, at any angle.
 #[test]
 fn rounding_alone_costs_what_the_rule_says() {
     let mut least = f64::INFINITY;

@@ -1,5 +1,4 @@
-//! Coloured edges of an outline: fdsm's "simple" colouring on segments that its distances are
-//! sound for.
+//! Coloured edges of an outline, from segments that are safe to measure distances to.
 
 use fdsm::{
     bezier::{Order, Segment},
@@ -11,28 +10,29 @@ use kurbo::{
 };
 use nalgebra::Point2;
 
-use crate::geometry::flatten_segment;
+use crate::geometry::{flatten_segment, set_end, set_start};
 
-/// Segments and handles shorter than this many texels are noise to a distance field: their
-/// direction decides a sign far beyond their size. They are collapsed.
+/// Segments and handles shorter than this many texels are collapsed. They are noise to a distance
+/// field: the direction of a tiny segment decides signs far away from it.
 const COLLAPSE_TEXELS: f64 = 0.05;
-/// Sine of the smallest turn that counts as a corner, msdfgen's default of 3 rad.
+/// Sine of the smallest turn that counts as a corner: msdfgen's default angle of 3 rad.
 const CORNER_SINE: f64 = 0.14;
-/// How far quadratics may leave the cubic they stand for, in texels: a quarter of what a stored
-/// byte resolves. fdsm measures quadratics in closed form and cubics by 20 Newton steps.
+/// How far quadratics may be from the cubic that they replace, in texels: a quarter of what a
+/// stored byte resolves. fdsm measures quadratics in closed form, but cubics by 20 Newton steps,
+/// which are slower and may miss the nearest point.
 const QUAD_TOLERANCE_TEXELS: f64 = 4e-3;
-/// How far [`Edge::lines`] may leave their segment, in texels.
+/// How far [`Edge::lines`] may be from their segment, in texels.
 const LINE_TOLERANCE_TEXELS: f64 = 0.02;
 
 /// One coloured segment in lattice steps.
 #[derive(Clone, Debug)]
 pub(crate) struct Edge {
-    /// A line or a quadratic.
+    /// A line or a quadratic with its colour.
     pub(crate) segment: ColoredSegment,
 }
 
 impl Edge {
-    /// The same as kurbo has it.
+    /// The segment in kurbo's terms.
     pub(crate) fn curve(&self) -> PathSeg {
         let s = &self.segment.segment;
         let p = |i| to_kurbo(s.control_point(i));
@@ -52,22 +52,24 @@ impl Edge {
     }
 }
 
-/// How far the edges may lie from the outline they come from, in steps.
+/// How far edges, as lines, may lie from the outline that they come from, in steps.
 pub(crate) const EDGE_ERROR_TEXELS: f64 =
     2.0 * COLLAPSE_TEXELS + QUAD_TOLERANCE_TEXELS + LINE_TOLERANCE_TEXELS;
 
-/// Edges of `outline`, in lattice steps, turned so that fdsm's distances are positive inside.
+/// The coloured edges of an outline, in lattice steps. Its contours are reversed where that makes
+/// fdsm's distances positive inside.
 pub(crate) fn edges_of(outline: &BezPath) -> Vec<Edge> {
-    // fdsm: positive to the left of the direction of travel, y down.
+    // fdsm's distances are positive to the left of the direction of travel, with y down.
     let turned = if outline.area() > 0.0 {
         outline.reverse_subpaths()
     } else {
         outline.clone()
     };
     let mut edges = Vec::new();
+    // The index seeds the colouring, so equal outlines get equal colours in every bake.
     for (index, contour) in (0_u64..).zip(split_contours(&turned)) {
         let segments = collapse(&contour);
-        // Two segments can enclose something only when one of them is curved.
+        // The rest of a collapsed contour: fewer than two segments enclose next to nothing.
         if segments.len() < 2 {
             continue;
         }
@@ -78,11 +80,12 @@ pub(crate) fn edges_of(outline: &BezPath) -> Vec<Edge> {
     edges
 }
 
-/// Colours that share one channel with each other.
+/// Colours of two channels. Any two of them share one channel.
 const TWO_CHANNELS: [Color; 3] = [Color::CYAN, Color::MAGENTA, Color::YELLOW];
 
-/// fdsm's "simple" colouring, begun anew for each contour, so that the two contours of a thin ring
-/// are told apart; for the same reason a contour without corners is not white.
+/// fdsm's "simple" colouring with a seed that differs by contour: the two contours of a thin ring
+/// must get different colours, or their distances mix. For the same reason a contour without
+/// corners, which fdsm makes white, gets a colour of two channels here.
 fn color_contour(segments: &[PathSeg], index: u64) -> Vec<ColoredSegment> {
     let contour = Contour {
         segments: segments.iter().map(to_fdsm).collect(),
@@ -98,6 +101,7 @@ fn color_contour(segments: &[PathSeg], index: u64) -> Vec<ColoredSegment> {
     segments
 }
 
+/// The segments of each contour.
 fn split_contours(outline: &BezPath) -> Vec<Vec<PathSeg>> {
     let mut contours = Vec::new();
     let mut current = Vec::new();
@@ -113,12 +117,13 @@ fn split_contours(outline: &BezPath) -> Vec<Vec<PathSeg>> {
     contours
 }
 
-/// The contour without segments shorter than [`COLLAPSE_TEXELS`]; neighbours close the gaps.
+/// The contour without segments shorter than [`COLLAPSE_TEXELS`]. Their neighbours close the gaps.
 fn collapse(contour: &[PathSeg]) -> Vec<PathSeg> {
     let mut kept: Vec<PathSeg> = Vec::with_capacity(contour.len());
     let Some(start) = contour.first().map(ParamCurve::start) else {
         return kept;
     };
+    // A dropped segment is bridged by the next one kept, which starts where the last one ended.
     let mut from = start;
     for segment in contour {
         let mut moved = *segment;
@@ -129,12 +134,15 @@ fn collapse(contour: &[PathSeg]) -> Vec<PathSeg> {
         }
     }
     if let Some(last) = kept.last_mut() {
+        // The last segment closes the contour.
         set_end(last, start);
     }
+    // Moving an end may have left a segment without length.
     kept.retain(|segment| control_length(segment) > 0.0);
     kept.into_iter().map(mend_handles).collect()
 }
 
+/// Length of the control polygon.
 fn control_length(segment: &PathSeg) -> f64 {
     match segment {
         PathSeg::Line(l) => l.arclen(1.0),
@@ -143,24 +151,8 @@ fn control_length(segment: &PathSeg) -> f64 {
     }
 }
 
-fn set_start(segment: &mut PathSeg, p: Point) {
-    match segment {
-        PathSeg::Line(l) => l.p0 = p,
-        PathSeg::Quad(q) => q.p0 = p,
-        PathSeg::Cubic(c) => c.p0 = p,
-    }
-}
-
-fn set_end(segment: &mut PathSeg, p: Point) {
-    match segment {
-        PathSeg::Line(l) => l.p1 = p,
-        PathSeg::Quad(q) => q.p2 = p,
-        PathSeg::Cubic(c) => c.p3 = p,
-    }
-}
-
-/// Turns handles shorter than [`COLLAPSE_TEXELS`] towards the next control point, so that the
-/// direction at the end is the direction in which the curve really leaves.
+/// Turns handles shorter than [`COLLAPSE_TEXELS`] towards the next control point. The direction at
+/// an end is then the one in which the curve really leaves, not that of a tiny handle.
 fn mend_handles(segment: PathSeg) -> PathSeg {
     match segment {
         PathSeg::Line(_) => segment,
@@ -186,6 +178,7 @@ fn mend_handles(segment: PathSeg) -> PathSeg {
     }
 }
 
+/// A point a little way from `from` towards `to`.
 fn towards(from: Point, to: Point) -> Point {
     let d = to - from;
     let length = d.hypot();
@@ -196,11 +189,13 @@ fn towards(from: Point, to: Point) -> Point {
     }
 }
 
+/// Appends the edge; a cubic becomes quadratics of its colour.
 fn push_quads(colored: ColoredSegment, edges: &mut Vec<Edge>) {
     let color: Color = colored.color;
     let edge = Edge { segment: colored };
     match edge.curve() {
         PathSeg::Cubic(cubic) => {
+            // All pieces keep the colour: there is no corner between them.
             let quads = cubic.to_quads(QUAD_TOLERANCE_TEXELS);
             edges.extend(quads.map(|(_, _, quad)| Edge {
                 segment: ColoredSegment {
@@ -217,7 +212,7 @@ fn to_fdsm(segment: &PathSeg) -> Segment {
     let p = |p: Point| Point2::new(p.x, p.y);
     match segment {
         PathSeg::Line(l) => Segment::line(p(l.p0), p(l.p1)),
-        // A quadratic without bend has no cubic to solve for its nearest point.
+        // For a straight quadratic the cubic equation of the nearest point degenerates.
         PathSeg::Quad(q) if is_straight(q) => Segment::line(p(q.p0), p(q.p2)),
         PathSeg::Quad(q) => Segment::quad(p(q.p0), p(q.p1), p(q.p2)),
         PathSeg::Cubic(c) => Segment::cubic(p(c.p0), p(c.p1), p(c.p2), p(c.p3)),

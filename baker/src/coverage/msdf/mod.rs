@@ -1,4 +1,8 @@
-//! Multi-channel signed distance fields (Chlumsky 2015) of shapes, tile by tile.
+//! Multi-channel signed distance fields (Chlumsky 2015), rendered tile by tile.
+//!
+//! Three channels store distances to different subsets of the edges, coloured so that their median
+//! is sharp at corners ([`edges`]). fdsm computes the distances; the signs come from exact inside
+//! tests instead ([`tile`]).
 
 mod edges;
 mod tile;

@@ -1,4 +1,4 @@
-//! One tile: distances from fdsm, signs from the winding.
+//! Rendering one tile: distances from fdsm, signs from the winding.
 
 use fdsm::{
     bezier::prepared::PreparedColoredShape,
@@ -10,7 +10,8 @@ use nalgebra::Point2;
 use super::edges::Edge;
 use crate::geometry::Region;
 
-/// Crossings of a shape with the horizontal lines of the lattice.
+/// Crossings of an outline with the horizontal lines of the lattice. Testing the points of a line
+/// this way is much faster than testing each alone.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rows {
     first: u32,
@@ -18,7 +19,7 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    /// Lines `first` to `last`, in steps from the lattice's origin.
+    /// The crossings with lines `first` to `last`, in steps from the lattice's origin.
     pub(crate) fn new(region: &Region, first: u32, last: u32) -> Self {
         Self {
             first,
@@ -28,8 +29,8 @@ impl Rows {
         }
     }
 
-    /// Whether the lattice point lies in the region that the lines were made from; `false` on
-    /// lines that were not asked for.
+    /// Whether the lattice point lies in `region`, which the rows were made from; `false` on lines
+    /// outside the rows.
     pub(crate) fn contains(&self, region: &Region, column: u32, row: u32) -> bool {
         row.checked_sub(self.first)
             .and_then(|index| self.rows.get(index as usize))
@@ -37,35 +38,38 @@ impl Rows {
     }
 }
 
-/// A shape's part in a tile.
+/// A shape in a tile.
 #[derive(Debug)]
 pub(crate) struct TileShape<'a> {
     /// Edges within [`TileSpec::reach`] of the tile.
     pub(crate) edges: Vec<&'a Edge>,
-    /// Its inside test ...
+    /// Its region ...
     pub(crate) region: &'a Region,
-    /// ... and where it crosses the tile's lines.
+    /// ... and the crossings of its outline with the lines of the tile.
     pub(crate) rows: &'a Rows,
 }
 
-/// What a tile is made from.
+/// What a tile is rendered from.
 #[derive(Debug)]
 pub(crate) struct TileSpec<'a> {
     /// Lattice column and row of the first texel.
     pub(crate) origin: [u32; 2],
-    /// Lattice steps along a side; one texel more is stored.
+    /// Lattice steps along a side. One more texel is stored, so that neighbouring tiles repeat the
+    /// texels of their common border and a lookup reads one tile.
     pub(crate) steps: u32,
     /// Full width of the stored distances, in steps.
     pub(crate) range: f64,
-    /// Edges further away than this many steps count as infinitely far, in every tile alike, so
-    /// that neighbouring tiles agree on the texels they share. At least half the range.
+    /// Edges further away than this many steps count as infinitely far. The rule is the same in
+    /// every tile, so neighbouring tiles agree on the texels that they share. At least half the
+    /// range.
     pub(crate) reach: f64,
-    /// Shapes that never meet, except under a forced merge.
+    /// The shapes. They do not meet, except after a forced merge.
     pub(crate) shapes: Vec<TileShape<'a>>,
 }
 
-/// RGBA8 texels, row by row.
+/// The RGBA8 texels of the tile, row by row.
 pub(crate) fn render_tile(spec: &TileSpec<'_>) -> Vec<u8> {
+    // fdsm measures all edges of a contour alike, so the edges of all shapes may form one.
     let contour = ColoredContour {
         segments: spec
             .shapes
@@ -96,12 +100,14 @@ fn texel(spec: &TileSpec<'_>, edges: &PreparedColoredShape, column: u32, row: u3
         .iter()
         .any(|shape| shape.rows.contains(shape.region, column, row));
     let p = Point2::new(f64::from(column), f64::from(row));
+    // Without an edge in reach a channel holds the end of the range on the right side.
     let far = if inside { spec.range } else { -spec.range };
     let stored = edges.distance3(p).map(|nearest| {
         let distance = channel_distance(&nearest, p, spec.reach).unwrap_or(far);
         quantise(distance / spec.range + 0.5)
     });
-    // The nearest edge's side is not the truth at cusps and where outlines overlap; the winding is.
+    // The side of the nearest edge is not always the truth: not at cusps, and not where outlines
+    // overlap. The winding is. Mirroring all channels keeps the distance and corrects the sign.
     if (median(stored) >= 128) == inside {
         stored
     } else {
@@ -109,13 +115,14 @@ fn texel(spec: &TileSpec<'_>, edges: &PreparedColoredShape, column: u32, row: u3
     }
 }
 
-/// Signed pseudo-distance of a channel, `None` when its nearest edge is beyond `reach`.
+/// Signed pseudo-distance of a channel; `None` when its nearest edge is beyond `reach`.
 fn channel_distance(
     nearest: &TrackedDistanceAndOrthogonality,
     p: Point2<f64>,
     reach: f64,
 ) -> Option<f64> {
     let near = nearest.value.distance_squared.abs() <= reach * reach;
+    // fdsm divides by lengths that may be 0.
     let distance = near.then(|| nearest.signed_pseudo_distance(p))?;
     distance.is_finite().then_some(distance)
 }

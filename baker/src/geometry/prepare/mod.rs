@@ -1,10 +1,13 @@
-//! Outlines made simple: after this, contours neither cross nor overlap and all run the same way
-//! round, so that distances to them have a sign and every fill rule gives the same answer.
+//! Preparing outlines for MSDFs: overlaps are removed.
 //!
-//! Order of attempts: linesweeper, which keeps curves; `i_overlay`, which is robust and flattens; the
-//! outline as drawn with its own fill rule. Each result is held against the drawing's winding
-//! before it is taken, so what goes wrong here costs a distance field its precision, never the
-//! picture its shape.
+//! A distance field needs contours that neither cross nor overlap and whose insides all lie on the
+//! same side. Then the distance to the nearest edge has the right sign, and every fill rule gives
+//! the same answer. Curves need none of this: they test windings.
+//!
+//! Three attempts, in this order: linesweeper, which keeps curves; `i_overlay`, which is robust but
+//! flattens; the outline as drawn, with its own fill rule. Each result is compared with the winding
+//! of the drawing before it is used. So a fault of a library can make an MSDF less precise, but it
+//! cannot change the shape.
 
 use kurbo::{
     Affine, BezPath, CubicBez, Line, ParamCurve, PathEl, PathSeg, Point, QuadBez, Shape as _,
@@ -23,36 +26,37 @@ mod verify;
 use simplify::{Method, by_overlay, by_sweep};
 use verify::agrees;
 
-/// Longer side of the canvas in the units that simplification works in.
+/// Longer side of the canvas in the units that simplification works in. linesweeper takes its
+/// tolerance as an absolute number, so the size of coordinates decides its precision.
 const SIMPLIFY_SIZE: f64 = 1024.0;
-/// Segments beyond which a path is not simplified: crossings may grow with the square. Such a path
-/// keeps its outline and its fill rule.
+/// Segments of the largest path that is simplified, because the number of crossings can grow with
+/// the square. A path with more keeps its outline and its fill rule.
 const MAX_SIMPLIFY_SEGMENTS: usize = 20_000;
-/// Canvases from the origin beyond which a point is moved to this distance, in a way that changes
-/// nothing nearer. Coordinates of curve lattices have room for 2^17.
+/// Points further from the origin than this many canvases are moved to this distance, which changes
+/// nothing nearer. Coordinates of curve lattices could hold 2^17 canvases.
 const FARTHEST_CANVASES: f64 = 4096.0;
 
-/// An outline ready for packing, cells and distance fields.
+/// An outline that is ready for an MSDF.
 #[derive(Clone, Debug)]
 pub(crate) struct Prepared {
     /// Closed contours in canvas space.
     pub(crate) outline: BezPath,
-    /// Inside test.
+    /// Its fill rule.
     pub(crate) rule: FillRule,
-    /// What was done.
+    /// What preparation did.
     pub(crate) note: Note,
 }
 
 /// What preparation did to a shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Note {
-    /// Nothing that shows.
+    /// No overlaps were found.
     AsDrawn,
     /// Overlaps were removed.
     Simplified,
-    /// The first method failed or disagreed, the second removed the overlaps.
+    /// The first method failed or disagreed with the drawing; the second removed the overlaps.
     SecondMethod,
-    /// No method agreed; the outline and its rule are as drawn.
+    /// No method agreed with the drawing. Outline and fill rule are as drawn.
     Failed,
 }
 
@@ -73,7 +77,7 @@ fn prepare_by(methods: &[Method], shape: &Shape, canvas_longer: f64) -> Prepared
             note: Note::Failed,
         };
     };
-    // Overlaps change the signed area, so equal areas mean that there were none.
+    // Removing an overlap changes the signed area. So equal areas mean that there was none.
     let change = (simple.area().abs() - scaled.area().abs()).abs();
     let plain = change <= 1e-2 + 1e-6 * simple.area().abs();
     Prepared {
@@ -92,6 +96,7 @@ fn first_that_agrees(
     outline: &BezPath,
     rule: FillRule,
 ) -> Option<(usize, BezPath)> {
+    // An empty outline needs no method.
     if outline.elements().is_empty() {
         return Some((0, BezPath::new()));
     }
@@ -104,8 +109,8 @@ fn first_that_agrees(
         .find(|(_, simple)| agrees(outline, rule, simple))
 }
 
-/// Closes every contour, moves what is absurdly far away nearer, and leaves out contours with a
-/// non-finite point, empty segments and handles of no length. The canvas' longer side is
+/// The outline with contours closed and far points moved nearer, without segments of no length,
+/// handles of no length, and contours with a non-finite point. The canvas' longer side is
 /// `canvas_longer` units.
 pub(crate) fn clean(outline: &BezPath, canvas_longer: f64) -> BezPath {
     clamp_outline(&clean_contours(outline), FARTHEST_CANVASES * canvas_longer)
@@ -118,6 +123,7 @@ fn clean_contours(outline: &BezPath) -> BezPath {
         let (Some(first), Some(last)) = (segments.first(), segments.last()) else {
             continue;
         };
+        // Dropping segments of no length leaves no gap: their ends coincide.
         let (start, end) = (first.start(), last.end());
         if !contour.is_finite() {
             continue;
@@ -132,6 +138,7 @@ fn clean_contours(outline: &BezPath) -> BezPath {
     cleaned
 }
 
+/// One path for each contour.
 fn contours(outline: &BezPath) -> Vec<BezPath> {
     let mut contours: Vec<BezPath> = Vec::new();
     let mut start = Point::ZERO;
@@ -153,7 +160,7 @@ fn contours(outline: &BezPath) -> Vec<BezPath> {
     contours
 }
 
-/// The simplest segment with the same trace; `None` for a point.
+/// The simplest segment with the same points; `None` if that is a single point.
 fn straighten(segment: PathSeg) -> Option<PathSeg> {
     let simple = match segment {
         PathSeg::Quad(QuadBez { p0, p1, p2 }) if p1 == p0 || p1 == p2 => {

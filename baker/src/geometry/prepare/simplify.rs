@@ -1,4 +1,4 @@
-//! Two ways to the boundary of the filled region.
+//! Two methods to find the boundary of what an outline fills.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -9,18 +9,18 @@ use linesweeper::topology::Topology;
 use crate::{drawing::FillRule, geometry::flatten};
 
 /// How far a simplification may move an edge, in units of a 1024th of the canvas. Measured: smaller
-/// values cost time and bring slivers, larger ones show at 64x.
+/// values take longer and leave slivers; larger ones can be seen at zoom 64.
 pub(super) const SIMPLIFY_EPS: f64 = 1e-4;
-/// How far flattening for the second method may move an edge, in the same units: a tenth of what a
-/// stored byte resolves on a lattice of 1024 texels.
+/// How far flattening for the second method may move an edge, in the same units: a tenth of what
+/// one byte of distance resolves on a lattice of 1024 texels.
 const FLATTEN_EPS: f64 = 1e-3;
 
-/// Makes the boundary of what `outline` fills; `None` where it cannot.
+/// The boundary of what an outline fills by a rule; `None` on failure.
 pub(super) type Method = fn(&BezPath, FillRule) -> Option<BezPath>;
 
-/// linesweeper: keeps curves.
+/// By linesweeper, which keeps curves.
 pub(super) fn by_sweep(outline: &BezPath, rule: FillRule) -> Option<BezPath> {
-    // Exact in intent but young: a panic costs one shape its first method.
+    // The library is young. A panic in it is a failure of this method for one shape.
     let contours = catch_unwind(AssertUnwindSafe(|| {
         Topology::<i32>::from_path(outline, SIMPLIFY_EPS)
             .ok()
@@ -34,7 +34,7 @@ pub(super) fn by_sweep(outline: &BezPath, rule: FillRule) -> Option<BezPath> {
     Some(simple)
 }
 
-/// `i_overlay`: exact on integers, flattens first.
+/// By `i_overlay`, which is exact on integers. The outline is flattened first.
 pub(super) fn by_overlay(outline: &BezPath, rule: FillRule) -> Option<BezPath> {
     let contours: Vec<Vec<[f64; 2]>> = flatten(outline, FLATTEN_EPS)
         .into_iter()
@@ -47,6 +47,7 @@ pub(super) fn by_overlay(outline: &BezPath, rule: FillRule) -> Option<BezPath> {
     let shapes = catch_unwind(AssertUnwindSafe(|| contours.simplify_shape_as::<i64>(rule))).ok()?;
     let mut simple = BezPath::new();
     for contour in shapes.iter().flatten() {
+        // `i_overlay` gives points without the closing one.
         let mut points = contour.iter().map(|&[x, y]| Point::new(x, y));
         let Some(first) = points.next() else { continue };
         simple.move_to(first);

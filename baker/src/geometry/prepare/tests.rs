@@ -1,4 +1,4 @@
-//! Each class of hard outline, as SVG path data, against the brute-force winding of what was drawn.
+//! Each class of hard outline, as SVG path data, against exact windings of what was drawn.
 
 use kurbo::{BezPath, Line, Point, Rect, Shape as _};
 
@@ -16,7 +16,8 @@ use crate::{
 
 /// Longer side of the canvas in these tests.
 const CANVAS: f64 = 100.0;
-/// Nearer to an edge of the drawing than this the outlines may differ: a 50,000th of the canvas.
+/// Distance from an edge of the drawing within which the outlines may differ: a 50,000th of the
+/// canvas.
 const NEAR: f64 = 2e-3;
 
 /// Name, outline, rule.
@@ -105,7 +106,7 @@ fn near_an_edge(outline: &BezPath, p: Point) -> bool {
     })
 }
 
-/// Holds what was prepared against what was drawn, all over the canvas and close to the edges.
+/// Compares what was prepared with what was drawn, all over the canvas and close to the edges.
 fn compare(name: &str, drawn: &Shape, prepared: &Prepared) {
     let truth = Region::new(&clean(&drawn.outline, CANVAS), drawn.fill_rule);
     let found = Region::new(&prepared.outline, prepared.rule);
@@ -174,7 +175,7 @@ fn random_outlines_by_both_methods() {
     }
 }
 
-/// A method that answers something else is as good as none.
+/// A method whose result differs from the drawing is not used.
 #[test]
 fn wrong_answers_are_found_out() {
     let nothing: Method = |_, _| None;
@@ -233,7 +234,7 @@ fn notes_say_what_was_done() {
     assert_eq!(note("", FillRule::NonZero), Note::AsDrawn);
 }
 
-/// What reaches beyond all measure still cuts the canvas where it did.
+/// An outline that reaches very far still has its edge at the same place of the canvas.
 #[test]
 fn huge_coordinates_keep_the_picture() {
     let huge = [
@@ -318,7 +319,8 @@ fn segments_after_a_closed_contour_start_at_its_start() {
     assert_eq!(cleaned, expected);
 }
 
-/// Too long for any method: baked as drawn, with a report and a warning, and the picture is right.
+/// An outline too long for any method is baked as drawn, with a report and a warning, and looks
+/// right.
 #[test]
 fn what_cannot_be_prepared_is_baked_as_drawn() {
     let mut outline = BezPath::new();

@@ -1,19 +1,23 @@
-//! Round joins and caps, made round again.
+//! Round joins and caps, drawn again at the wanted tolerance.
 //!
-//! kurbo (0.13) draws their arcs to a thousandth of the stroke's half width, whatever the tolerance
-//! it is given: most of a pixel at high zoom.
+//! kurbo (0.13) draws their arcs to a thousandth of the half width whatever tolerance it is given,
+//! which is most of a pixel at high zoom. Its output does not say which cubics are arcs. They are
+//! found by their geometry: a cubic is replaced only if it runs along a circle of the stroke's half
+//! width around a point of the line.
 
 use std::f64::consts::TAU;
 
 use kurbo::{Arc, BezPath, CubicBez, ParamCurve as _, PathEl, Point, Vec2};
 
-/// By how much, in half widths, a piece of an arc may miss its circle and still be known for one.
+/// How far the ends of a cubic may be off a circle for it to count as an arc, in half widths.
 const ALIKE: f64 = 1e-6;
 
-/// `outline`, the stroke of `line` with half width `radius`, with its arcs right to `tolerance`.
+/// The outline with its arcs exact to `tolerance`. It is the stroke of `line` with half width
+/// `radius`.
 pub(super) fn refine(outline: &BezPath, line: &BezPath, radius: f64, tolerance: f64) -> BezPath {
     let corners = Corners::new(line, radius);
-    // Pieces of a full circle, as in kurbo's own conversion of arcs.
+    // Cubics in a full circle, by the formula of kurbo's own conversion of arcs: the error falls
+    // with the sixth power of their number.
     let pieces = (1.1163 * radius / tolerance)
         .powf(1.0 / 6.0)
         .max(4.0)
@@ -40,7 +44,7 @@ pub(super) fn refine(outline: &BezPath, line: &BezPath, radius: f64, tolerance: 
 /// Appends `count` cubics along `arc`, the last of which ends bit for bit at `end`.
 fn push(path: &mut BezPath, arc: &Arc, count: f64, end: Point) {
     let step = arc.sweep_angle / count;
-    // The cubic whose middle lies on the circle.
+    // The handle length with which the middle of the cubic lies on the circle.
     let handle = 4.0 / 3.0 * (0.25 * step).tan();
     let on_circle = |angle: f64| arc.radii.x * Vec2::from_angle(angle);
     let turned = |v: Vec2| Vec2::new(-v.y, v.x);
@@ -57,7 +61,7 @@ fn push(path: &mut BezPath, arc: &Arc, count: f64, end: Point) {
     }
 }
 
-/// Where a line can have joins and caps, by x.
+/// Points at which a line can have joins and caps, sorted by x.
 struct Corners {
     points: Vec<Point>,
     slack: f64,
@@ -74,17 +78,22 @@ impl Corners {
         }
     }
 
-    /// The arc that `cubic` stands for: of a circle of `radius` about a corner.
+    /// The arc that `cubic` approximates: part of a circle of `radius` around a corner.
     fn arc(&self, cubic: CubicBez, radius: f64) -> Option<Arc> {
         let [start, end] = [cubic.p1 - cubic.p0, cubic.p3 - cubic.p2];
+        // The centre lies one radius from the start, at right angles to the tangent, on the side to
+        // which the curve turns.
         let inward = Vec2::new(-start.y, start.x) * (radius / start.hypot());
         let turn = start.cross(end);
         let inward = if turn < 0.0 { -inward } else { inward };
         let center = self.near(cubic.p0 + inward)?;
+        // A centre that is a point of the line was found. Check the rest of the cubic against its
+        // circle.
         let [from, to] = [cubic.p0 - center, cubic.p3 - center];
         let on_circle = |v: Vec2| (v.hypot() - radius).abs() <= self.slack;
-        // Its middle is as near to the circle as kurbo puts it.
+        // kurbo puts the middle within a thousandth of the radius; twice that is accepted.
         let middle = (cubic.eval(0.5) - center).hypot();
+        // The tangent at the end must be at right angles to the radius too.
         let along = end.dot(to).abs() <= self.slack * end.hypot();
         let round = on_circle(from) && on_circle(to) && along;
         let close = (middle - radius).abs() <= 2e-3 * radius;

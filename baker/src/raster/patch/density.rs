@@ -1,4 +1,7 @@
 //! How fine patches are: what is wanted, and what memory and time allow.
+//!
+//! *Density* is the number of patch texels for each texel of mip 0, along an axis. At density 8 a
+//! patch stays sharp up to eight times the zoom at which mips end.
 
 use kurbo::Rect;
 
@@ -7,24 +10,25 @@ use crate::{
     svg::{Cost, Subtree},
 };
 
-/// Patch texels for each texel of mip 0, when there is room. More gives crisper edges until curve
-/// and gradient cells make patches rare.
+/// Density when there is room.
 const FINEST_DENSITY: f64 = 8.0;
-/// Below this a patch is visibly blurred soon after mip 0 is left behind: worth a warning.
+/// Density below which a warning is due: such a patch is visibly blurred at little more than the
+/// zoom of mip 0.
 pub(super) const WANTED_DENSITY: f64 = 4.0;
-/// Texels of a patch's longer side, besides up to three at its ends; RGBA of that square is 21 MiB
-/// with its mips.
+/// Texels along the longer side of a patch, without up to three of its border. A square of that
+/// size takes 21 MiB with its mips.
 const MAX_PATCH_SIDE: f64 = 2048.0;
-/// Level 0 texels of all patches of a file: 32 MiB with their mips.
+/// Texels of level 0 of all patches of a file together: 32 MiB with their mips.
 pub(super) const MAX_PATCH_TEXELS: f64 = 6_291_456.0;
-/// Bytes of resvg's layers while one patch is painted. Past it the patch gets coarser.
+/// Bytes that resvg's layers may take while one patch is painted. A patch that needs more gets
+/// coarser.
 const MAX_LAYER_BYTES: f64 = 536_870_912.0;
-/// Texels of one pattern tile, 256 MiB. Past it the patch gets coarser.
+/// Texels that pattern tiles may take at once, 256 MiB. A patch that needs more gets coarser.
 const MAX_PATTERN_TEXELS: f64 = 67_108_864.0;
-/// resvg bounds a layer to this multiple of its pixmap, each way.
+/// Largest size of a resvg layer along an axis, in multiples of its pixmap.
 const LAYER_OVERHANG: f64 = 5.0;
 
-/// How patches are made for one drawing.
+/// What the density of a drawing's patches depends on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PatchSettings {
     /// Width and height of the canvas in user units.
@@ -36,7 +40,7 @@ pub(crate) struct PatchSettings {
 }
 
 impl PatchSettings {
-    /// Of a bake of a canvas of `canvas_size`.
+    /// The settings of a bake, for a canvas of `canvas_size` user units.
     pub(crate) fn new(canvas_size: [f64; 2], config: &BakeConfig) -> Self {
         Self {
             canvas_size,
@@ -45,6 +49,7 @@ impl PatchSettings {
         }
     }
 
+    /// More than the largest zoom shows is never needed.
     fn finest_density(self) -> f64 {
         FINEST_DENSITY.min(self.max_zoom.max(1.0))
     }
@@ -54,7 +59,7 @@ impl PatchSettings {
         WANTED_DENSITY.min(self.max_zoom.max(1.0))
     }
 
-    /// Texels a user unit at density 1.
+    /// Texels along a user unit at density 1.
     fn base_scale(self) -> f64 {
         f64::from(self.mip0_size) / self.canvas_size[0].max(self.canvas_size[1])
     }
@@ -64,7 +69,8 @@ impl PatchSettings {
         Rect::new(0.0, 0.0, self.canvas_size[0], self.canvas_size[1])
     }
 
-    /// The largest density at which the patches of all `subtrees` together stay within their budget.
+    /// The largest density at which the patches of all `subtrees` together stay within their
+    /// budget.
     pub(super) fn common_density<'a, 'b: 'a>(
         self,
         subtrees: impl Iterator<Item = &'a Subtree<'b>>,
@@ -78,7 +84,7 @@ impl PatchSettings {
             })
             .collect();
         let mut density = self.finest_density();
-        // Borders make the sum not quite quadratic in the density: a few rounds converge.
+        // Without borders the sum would be quadratic in the density and one step would do.
         for _ in 0..16 {
             let texels = |&(bounds, limit): &(Rect, f64)| {
                 let scale = self.base_scale() * density.min(limit);
@@ -112,11 +118,12 @@ impl PatchSettings {
         MAX_PATCH_SIDE / side.max(f64::MIN_POSITIVE)
     }
 
-    /// Bounds of one subtree's density: side, layers, patterns, filters.
+    /// The largest density of one subtree: its side, layers, patterns and filters each set a limit.
     pub(super) fn density_limit(self, subtree: &Subtree<'_>) -> f64 {
         let visible = subtree.bounds.intersect(self.canvas_rect());
         let cost = Cost::of_node(subtree.node, subtree.canvas_from_parent, self.canvas_size);
         let base = self.base_scale();
+        // resvg makes layers as large as the subtree, but not arbitrarily larger than the pixmap.
         let layer_area = subtree.bounds.width().min(LAYER_OVERHANG * visible.width())
             * subtree
                 .bounds
@@ -124,6 +131,7 @@ impl PatchSettings {
                 .min(LAYER_OVERHANG * visible.height());
         let layer_bytes = 4.0 * cost.layers * layer_area * base * base;
         let pattern_texels = cost.pattern_area * base * base;
+        // Memory grows with the square of the density.
         let for_layers = (MAX_LAYER_BYTES / layer_bytes.max(f64::MIN_POSITIVE)).sqrt();
         let for_patterns = (MAX_PATTERN_TEXELS / pattern_texels.max(f64::MIN_POSITIVE)).sqrt();
         self.density_for_side(visible)
@@ -132,8 +140,8 @@ impl PatchSettings {
             .min(cost.filter_density(base))
     }
 
-    /// Texels of the whole canvas at a density. The canvas covers them exactly, at the price of
-    /// texels that are not quite square.
+    /// Texels of the whole canvas at a density. They cover the canvas exactly, so they are not
+    /// quite square.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -1,8 +1,11 @@
-//! Raster patches: subtrees of the SVG that are not geometry, and shapes that are too much for
-//! curves.
+//! Patches: raster images of what no shape can be.
+//!
+//! Most are subtrees of the SVG that resvg paints ([`resvg`]), such as filters. A few are shapes
+//! that are too complex for curve records ([`skia`]). Embedded images keep their own texels instead
+//! ([`embedded`]).
 
 mod density;
-mod native;
+mod embedded;
 mod resvg;
 mod skia;
 mod window;
@@ -15,61 +18,51 @@ use crate::{
     drawing::{Item, Patch, Shape, tree::Tree},
     raster::mips::{self, LinearImage},
     svg::{Plan, Step, Subtree},
-    warning::Warnings,
+    warning::{self, Warnings},
 };
 use density::{MAX_PATCH_TEXELS, WANTED_DENSITY};
-use native::Native;
+use embedded::Embedded;
 use window::{Source, Window};
 
 pub(crate) use density::PatchSettings;
 
-/// What a shape is called that is a patch because it is too much for curve records.
+/// Feature of a patch that stands for a shape too complex for curve records.
 pub(crate) const SHAPE_FEATURE: &str = "path";
 
-/// Makes a drawing's items of the plan's steps, subtrees becoming images; the result is in
-/// painter's order.
+/// Turns the steps of a plan into the items of a drawing, in painter's order: subtrees become
+/// images.
 pub(crate) fn resolve(
     plan: Plan<'_>,
     settings: PatchSettings,
     warnings: &Warnings,
 ) -> (Vec<Item>, Tree) {
-    let natives = native::choose(&plan.steps);
+    let embedded = embedded::choose(&plan.steps);
     let patched = plan
         .steps
         .iter()
-        .zip(&natives)
+        .zip(&embedded)
         .filter_map(|pair| match pair {
             (Step::Raster(subtree), None) => Some(subtree),
             _ => None,
         });
-    // One density for all: neighbours must not differ in sharpness.
+    // One density for all patches, so that neighbours look equally sharp.
     let density = settings.common_density(patched);
     let painted: Vec<Outcome> = plan
         .steps
         .into_par_iter()
-        .zip(natives)
-        .map(|(step, native)| Outcome::of(step, native, settings, density))
+        .zip(embedded)
+        .map(|(step, image)| Outcome::of(step, image, settings, density))
         .collect();
-    // Warnings are told here and not while painting: in document order at any thread count.
+    // Warnings are collected here and not while painting: their order must not depend on threads.
     let mut items = Vec::with_capacity(painted.len());
     let mut place = Vec::with_capacity(painted.len());
     let mut coarse = false;
     for outcome in painted {
+        if let Outcome::Patch(_, density) = outcome {
+            coarse |= density < settings.wanted_density();
+        }
         let next = u32::try_from(items.len()).ok();
-        let item = match outcome {
-            Outcome::Item(item) => Some(item),
-            Outcome::Patch(patch, density) => {
-                coarse |= density < settings.wanted_density();
-                warnings.add(patch_warning(&patch, settings.canvas_size));
-                Some(Item::Patch(patch))
-            }
-            Outcome::Nothing => None,
-            Outcome::Failed(feature, element) => {
-                let message = format!("{feature} could not be painted and is left out");
-                warnings.push(WarningCode::RasterPatch, feature, &element, message);
-                None
-            }
-        };
+        let item = outcome.into_item(settings.canvas_size, warnings);
         place.push(item.as_ref().and(next));
         items.extend(item);
     }
@@ -79,33 +72,33 @@ pub(crate) fn resolve(
     (items, plan.tree.renumbered(&place))
 }
 
-/// What becomes of a step.
+/// The result of one step.
 enum Outcome {
-    /// An item without a word: geometry, or an image that keeps its texels.
+    /// An item that needs no warning: geometry or an embedded image.
     Item(Item),
     /// A patch and its density.
     Patch(Patch, f64),
-    /// Nothing of it shows.
+    /// Nothing: all of it is transparent.
     Nothing,
     /// resvg failed on this feature of this element.
     Failed(&'static str, String),
 }
 
 impl Outcome {
-    fn of(step: Step<'_>, native: Option<Native>, settings: PatchSettings, density: f64) -> Self {
+    fn of(step: Step<'_>, image: Option<Embedded>, settings: PatchSettings, density: f64) -> Self {
         let subtree = match step {
             Step::Shape(shape) => return Self::Item(Item::Shape(shape)),
             Step::Clip(clip) => return Self::Item(Item::Clip(clip)),
             Step::Raster(subtree) => subtree,
         };
-        let native = native.and_then(|native| native.patch(&subtree, settings.canvas_size));
-        match native {
+        let image = image.and_then(|image| image.patch(&subtree, settings.canvas_size));
+        match image {
             Some(patch) => Self::Item(Item::Patch(patch)),
             None => Self::painted(&subtree, settings, density),
         }
     }
 
-    /// The subtree as resvg paints it, at `density` or as fine as it can be.
+    /// The subtree painted by resvg, at `density` or at the largest density that its cost allows.
     fn painted(subtree: &Subtree<'_>, settings: PatchSettings, density: f64) -> Self {
         let density = density.min(settings.density_limit(subtree));
         let window = Window::new(subtree.bounds, settings.lattice(density), settings);
@@ -121,9 +114,26 @@ impl Outcome {
             None => Self::Nothing,
         }
     }
+
+    /// The item, if there is one. Warns about everything but geometry and embedded images.
+    fn into_item(self, canvas_size: [f64; 2], warnings: &Warnings) -> Option<Item> {
+        match self {
+            Self::Item(item) => Some(item),
+            Self::Patch(patch, _) => {
+                warnings.add(patch_warning(&patch, canvas_size));
+                Some(Item::Patch(patch))
+            }
+            Self::Nothing => None,
+            Self::Failed(feature, element) => {
+                let message = format!("{feature} could not be painted and is left out");
+                warnings.push(WarningCode::RasterPatch, feature, &element, message);
+                None
+            }
+        }
+    }
 }
 
-/// `None` when there is no memory for the window or resvg panics.
+/// The painted window; `None` when there is no memory for it or resvg panics.
 fn paint_subtree(subtree: &Subtree<'_>, window: &Window) -> Option<Pixmap> {
     let view = window.view();
     let mut pixmap = Pixmap::new(view.size[0], view.size[1])?;
@@ -132,7 +142,7 @@ fn paint_subtree(subtree: &Subtree<'_>, window: &Window) -> Option<Pixmap> {
     Some(pixmap)
 }
 
-/// One shape as a patch, within its `share` of what patches may take; `None` when nothing of it
+/// A shape as a patch, within its `share` of the texels of all patches; `None` when nothing of it
 /// shows.
 pub(crate) fn of_shape(shape: &Shape, settings: PatchSettings, share: f64) -> Option<Patch> {
     let bounds = shape
@@ -149,7 +159,8 @@ pub(crate) fn of_shape(shape: &Shape, settings: PatchSettings, share: f64) -> Op
     window.patch(pixmap, source)
 }
 
-/// The whole canvas as one patch, of which `paint` makes a picture of a size.
+/// The whole canvas as one patch, and a warning if it is coarse. `paint` makes the picture at a
+/// size.
 pub(crate) fn whole_canvas(
     settings: PatchSettings,
     paint: impl FnOnce([u32; 2]) -> LinearImage,
@@ -178,15 +189,10 @@ fn patch_warning(patch: &Patch, canvas_size: [f64; 2]) -> Warning {
 }
 
 fn coarse_warning() -> Warning {
-    Warning {
-        code: WarningCode::Reduced,
-        feature: "raster".into(),
-        element: String::new(),
-        message: format!(
-            "raster patches have fewer than {WANTED_DENSITY} texels for each of mip 0, \
-             to keep within {} MiB",
-            MAX_PATCH_TEXELS * 16.0 / 3.0 / 1_048_576.0
-        ),
-        area: 0.0,
-    }
+    let mib = MAX_PATCH_TEXELS * 16.0 / 3.0 / 1_048_576.0;
+    let message = format!(
+        "raster patches have fewer than {WANTED_DENSITY} texels for each of mip 0, \
+         to keep within {mib} MiB"
+    );
+    warning::plain(WarningCode::Reduced, "raster", "", message)
 }

@@ -1,4 +1,4 @@
-//! Nodes painted by resvg.
+//! Painting a node of the SVG tree by resvg.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -7,7 +7,7 @@ use tiny_skia::Pixmap;
 
 use super::skia::skia_transform;
 
-/// Paints one node, whose parent's space is mapped to texels; `None` when resvg panics.
+/// Paints one node; `None` when resvg panics. The transform is from the space of the node's parent.
 pub(super) fn paint_node(
     node: &usvg::Node,
     texel_from_parent: Affine,

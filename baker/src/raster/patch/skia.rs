@@ -1,4 +1,4 @@
-//! Pictures of single shapes by tiny-skia: of those that are too much for curves.
+//! Painting a single shape by tiny-skia, for shapes that are too complex for curves.
 
 use kurbo::{Affine, BezPath, PathEl, Point, Rect};
 use tiny_skia::{
@@ -14,7 +14,7 @@ use crate::drawing::{self, FillRule, Shape};
 pub(super) struct View {
     /// Columns and rows.
     pub(super) size: [u32; 2],
-    /// Texels a user unit along x and y.
+    /// Texels along a user unit, along x and y.
     pub(super) scale: [f64; 2],
     /// Texel coordinates of the window's top-left corner.
     pub(super) origin: [f64; 2],
@@ -60,6 +60,7 @@ pub(super) fn picture(shape: &Shape, view: View) -> Option<Pixmap> {
     Some(pixmap)
 }
 
+/// Whether `bounds` lies beside the window by a texel or more.
 fn misses(bounds: Rect, window: Rect) -> bool {
     bounds.x1 <= window.x0 - 1.0
         || bounds.x0 >= window.x1 + 1.0
@@ -79,6 +80,7 @@ fn paint_shape(shape: &Shape, view: View, pixmap: &mut Pixmap) {
     let Some(path) = skia_path(&shape.outline, transform) else {
         return;
     };
+    // Gradients are in uv, outlines in user units.
     let shader = match &shape.paint {
         drawing::Paint::Solid(color) => skia_color(*color).map(Shader::SolidColor),
         drawing::Paint::Gradient(it) => skia_gradient(it, view.texel_from_uv()),
@@ -87,6 +89,7 @@ fn paint_shape(shape: &Shape, view: View, pixmap: &mut Pixmap) {
         return;
     };
     let paint = Paint {
+        // As resvg paints.
         anti_alias: true,
         shader,
         ..Paint::default()
@@ -102,7 +105,7 @@ fn skia_color([r, g, b, a]: [f32; 4]) -> Option<Color> {
     Color::from_rgba(r, g, b, a)
 }
 
-/// The gradient as tiny-skia has it; `None` where it can not paint it.
+/// The gradient as a tiny-skia shader; `None` where tiny-skia cannot paint it.
 fn skia_gradient(gradient: &Gradient, texel_from_uv: Affine) -> Option<Shader<'static>> {
     let stop = |stop: &GradientStop| Some(SkiaStop::new(stop.offset, skia_color(stop.color)?));
     let stops = gradient
@@ -122,7 +125,7 @@ fn skia_gradient(gradient: &Gradient, texel_from_uv: Affine) -> Option<Shader<'s
     match gradient.shape {
         GradientShape::Linear { t_from_uv } => {
             let [a, b, c] = t_from_uv.map(f64::from);
-            // The other axis at right angles in uv.
+            // t varies along one axis only; the other one is put at right angles to it in uv.
             let transform = from([a, -b, b, a, c, 0.0]);
             LinearGradient::new(point(0.0, 0.0), point(1.0, 0.0), stops, mode, transform)
         }

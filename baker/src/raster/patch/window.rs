@@ -1,4 +1,4 @@
-//! The part of the canvas that a patch is painted on, in texels of the patch's own lattice.
+//! The part of the canvas that a patch is painted on, as a rectangle of texels.
 
 use kurbo::Rect;
 use tiny_skia::Pixmap;
@@ -67,7 +67,7 @@ impl Window {
         }
     }
 
-    /// What a painter needs to know of it.
+    /// The window for painting.
     pub(super) fn view(&self) -> View {
         let [left, top, right, bottom] = self.texels;
         View {
@@ -77,11 +77,12 @@ impl Window {
         }
     }
 
-    /// What shows of the painted window, as a patch no larger or finer than it has to be; `None`
-    /// when nothing shows.
+    /// The painted window as a patch that is no larger and no finer than it has to be; `None` when
+    /// nothing shows.
     pub(super) fn patch(&self, mut pixmap: Pixmap, source: Source<'_>) -> Option<Patch> {
         self.clear_border(&mut pixmap);
         let shown = self.shown_part(&pixmap)?;
+        // Soft content such as a blurred shadow gets fewer texels.
         let level0 = detail::fitted(self.cropped(&pixmap, shown));
         let uv = |side: usize| f64::from(shown[side]) / f64::from(self.lattice[side % 2]);
         let rect_uv = [0, 1, 2, 3].map(uv);
@@ -95,8 +96,8 @@ impl Window {
         })
     }
 
-    /// Clears the outermost texels except along the canvas' own edges, so that bilinear lookups
-    /// fade to nothing there even if a box was too small.
+    /// Clears the outermost texels except along the edges of the canvas. A lookup at the border of
+    /// the patch interpolates with nothing, so it fades out, even if the bounds were too small.
     fn clear_border(&self, pixmap: &mut Pixmap) {
         let ([left, top, right, bottom], lattice) = (self.texels, self.lattice);
         let (width, height) = (pixmap.width() as usize, pixmap.height() as usize);
@@ -117,8 +118,8 @@ impl Window {
         }
     }
 
-    /// The smallest part outside of which all is transparent, with a transparent border except
-    /// along the canvas' edges. `None` when nothing shows.
+    /// The smallest part that shows everything, with a transparent border except along the edges of
+    /// the canvas. `None` when nothing shows.
     fn shown_part(&self, pixmap: &Pixmap) -> Option<Texels> {
         let width = pixmap.width() as usize;
         let texels = pixmap.data().as_chunks::<4>().0;
@@ -137,6 +138,7 @@ impl Window {
         let texel =
             |offset: usize, axis: usize| self.texels[axis] + u32::try_from(offset).unwrap_or(0);
         Some([
+            // One transparent texel more on each side, so that lookups fade out.
             texel(left, 0).saturating_sub(1),
             texel(top, 1).saturating_sub(1),
             (texel(right, 0) + 2).min(self.lattice[0]),

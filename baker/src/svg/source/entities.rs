@@ -1,10 +1,10 @@
-//! How large an SVG's text becomes once its XML entities are expanded, before that happens: a few
-//! kilobytes of text can ask for gigabytes.
+//! The size of an SVG's text with its XML entities expanded, computed without expanding them: a few
+//! kilobytes of text can expand to gigabytes.
 
 use std::collections::BTreeMap;
 
-/// Bytes of the text plus what its entity references expand to, an upper bound. Declarations that
-/// are not understood count as empty; the XML parser refuses those.
+/// Upper bound on the bytes of the text with all entity references expanded. Declarations that are
+/// not understood count as empty: the XML parser refuses those.
 pub(crate) fn expanded_bytes(text: &str) -> usize {
     if !text.contains("<!ENTITY") {
         return text.len();
@@ -12,8 +12,9 @@ pub(crate) fn expanded_bytes(text: &str) -> usize {
     let mut sizes: BTreeMap<&str, usize> = BTreeMap::new();
     for declaration in text.split("<!ENTITY").skip(1) {
         if let Some((name, value)) = declared(declaration) {
-            // Only what is declared before can be known; the parser allows no loops.
+            // Only entities declared before count, because the parser refuses loops.
             let size = value.len().saturating_add(references(value, &sizes));
+            // XML: the first declaration of a name counts.
             sizes.entry(name).or_insert(size);
         }
     }

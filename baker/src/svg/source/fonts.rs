@@ -1,4 +1,4 @@
-//! Fonts for text: only those the caller gave, and a warning for each that is missing.
+//! Fonts for text: only those of the caller, and a warning for each that is missing.
 
 use std::sync::Arc;
 
@@ -8,8 +8,8 @@ use vtex_format::WarningCode;
 
 use crate::warning::Warnings;
 
-/// How a bake chooses a face: usvg's own choice, else the first face there is. For those who draw
-/// the same SVG by other means and want the same glyphs.
+/// How a bake chooses a font face: usvg's choice, or else the first face that there is. Use it to
+/// draw the same SVG with usvg and get the same glyphs.
 pub fn font_selector() -> usvg::FontSelectionFn<'static> {
     let select = FontResolver::default_font_selector();
     Box::new(move |font, fonts| {
@@ -17,13 +17,14 @@ pub fn font_selector() -> usvg::FontSelectionFn<'static> {
     })
 }
 
-/// [`font_selector`], telling what it could not find.
+/// [`font_selector`] with warnings about fonts and characters that it could not find.
 pub(crate) fn resolver(warnings: &Warnings) -> FontResolver<'_> {
     let select = font_selector();
     let fall_back = FontResolver::default_fallback_selector();
     FontResolver {
         select_font: Box::new(move |font, fonts: &mut Arc<Database>| {
             let chosen = select(font, fonts);
+            // A substitute is drawn, but the text may then look different.
             if !wanted_family_exists(font, fonts) {
                 let families = family_names(font);
                 let result = match chosen.and_then(|id| family_of(fonts, id)) {
@@ -37,6 +38,7 @@ pub(crate) fn resolver(warnings: &Warnings) -> FontResolver<'_> {
         }),
         select_fallback: Box::new(move |character, used, fonts: &mut Arc<Database>| {
             let chosen = fall_back(character, used, fonts);
+            // A missing space or control character cannot be seen.
             if chosen.is_none() && !is_invisible(character) {
                 let code = u32::from(character);
                 let message = format!("no font has the character U+{code:04X}");

@@ -1,4 +1,4 @@
-//! Where `<image>` and `feImage` get their data: from the SVG itself, or from whoever bakes it.
+//! The data of `<image>` and `feImage`: from the SVG itself, or from the caller's reader.
 
 use std::sync::Arc;
 
@@ -12,19 +12,19 @@ use super::{
 };
 use crate::{config::ImageReader, warning::Warnings};
 
-/// Pixels that a raster image may claim in its header. A PNG that claims 60000 x 60000 would end
-/// the process inside the decoder's allocation; 64 Mpx are 256 MiB of RGBA.
+/// Most pixels of a raster image, by its header. A PNG that claims 60000 x 60000 would end the
+/// process when the decoder allocates memory. 64 Mpx are 256 MiB of RGBA.
 const MAX_IMAGE_PIXELS: u64 = 64 << 20;
-/// Bytes of a nested SVG image.
+/// Most bytes of a nested SVG image.
 const MAX_NESTED_SVG_BYTES: usize = 16 << 20;
-/// SVG images inside SVG images. Real files have one; each level is a parse on the stack of the
-/// one before.
+/// Levels of SVG images inside SVG images. Real files have one. Each level is parsed on the stack
+/// of the level above.
 const MAX_NESTED_LEVELS: usize = 4;
-/// How much of a refused reference a warning quotes.
+/// Characters of a link that a warning quotes.
 const QUOTED_CHARS: usize = 80;
 
-/// usvg's own resolver reads any local path; this one decodes data URLs, and asks `reader` for
-/// the rest when there is one.
+/// A resolver that decodes data URLs and asks the reader, if there is one, for everything else.
+/// usvg's own resolver would read any local path.
 pub(crate) fn resolver<'a>(
     warnings: &'a Warnings,
     reader: Option<&'a ImageReader>,
@@ -60,7 +60,7 @@ fn at_level<'a>(
     }
 }
 
-/// Where a nested SVG stands.
+/// How deep an image is nested, and where its warnings go.
 #[derive(Clone, Copy)]
 struct Nest<'a> {
     warnings: &'a Warnings,
@@ -77,7 +77,7 @@ fn load(
     nest: Nest<'_>,
     options: &Options<'_>,
 ) -> Result<ImageKind, String> {
-    // The bytes decide, as in browsers: many files carry a wrong MIME type.
+    // The bytes decide and not the MIME type, as in browsers: many files name a wrong one.
     match imagesize::image_type(&data) {
         Ok(ImageType::Png) => checked(&data).map(|()| ImageKind::PNG(data)),
         Ok(ImageType::Jpeg) => checked(&data).map(|()| ImageKind::JPEG(data)),
@@ -89,6 +89,7 @@ fn load(
     }
 }
 
+/// Checks the size in the header.
 fn checked(data: &[u8]) -> Result<(), String> {
     let size = imagesize::blob_size(data).map_err(|_| "the header is broken".to_owned())?;
     let (width, height) = (size.width as u64, size.height as u64);
@@ -101,8 +102,8 @@ fn checked(data: &[u8]) -> Result<(), String> {
     Ok(())
 }
 
-/// A nested SVG gets no files, so that none can contain itself, and what it embeds is as bounded
-/// as what the outer one does.
+/// A nested SVG. It cannot link to files, so it cannot contain itself. What it embeds has the same
+/// limits as what the outer one embeds.
 fn nested(data: &[u8], nest: Nest<'_>, outer: &Options<'_>) -> Result<ImageKind, String> {
     if data.starts_with(&GZIP_MAGIC) {
         return Err("a compressed SVG inside an SVG is not read".to_owned());
@@ -110,6 +111,7 @@ fn nested(data: &[u8], nest: Nest<'_>, outer: &Options<'_>) -> Result<ImageKind,
     if data.len() > MAX_NESTED_SVG_BYTES || nest.level >= MAX_NESTED_LEVELS {
         return Err("too large or too deeply nested".to_owned());
     }
+    // The same limits as for the outer text.
     let text = checked_text(data).map_err(|e| e.to_string())?;
     let options = Options {
         dpi: outer.dpi,
@@ -118,7 +120,7 @@ fn nested(data: &[u8], nest: Nest<'_>, outer: &Options<'_>) -> Result<ImageKind,
         fontdb: Arc::clone(&outer.fontdb),
         ..Options::default()
     };
-    // Not `from_data_nested`: that one drops outside images without asking the hook.
+    // `from_data_nested` would drop linked images without asking the hook, so without a warning.
     Tree::from_str(text, &options)
         .map(ImageKind::SVG)
         .map_err(|e| e.to_string())

@@ -1,24 +1,28 @@
-//! Budgets of the parsed tree, checked before any work on it starts.
+//! Limits of the parsed tree, checked before any work on it starts.
 
 use kurbo::Affine;
 
 use crate::{error::BakeError, svg::cost::Cost};
 
-/// Nodes of the parsed tree, after `use` is expanded. usvg has a bound of its own as well.
+/// Nodes of the tree after `use` is expanded. usvg has a limit of its own as well.
 const MAX_NODES: usize = 1 << 20;
-/// Path verbs of the parsed tree.
+/// Path verbs of the tree.
 const MAX_SEGMENTS: usize = 1 << 22;
-/// Groups inside groups, clip paths, masks, patterns and SVG images all counted. Real files stay
-/// below 100, usvg lets 1024 elements nest. Deeper ones could exhaust the stack of a painter.
+/// Levels of nesting: groups, clip paths, masks, patterns and SVG images all count. Real files stay
+/// below 100; usvg allows 1024 nested elements. More could exhaust the stack when the tree is
+/// painted.
 const MAX_DEPTH: usize = 1024;
-/// Side in texels of the canvas for which filters are weighed.
+/// Longer side of the canvas in texels at which the time of filters is estimated.
 const WEIGHED_SIDE: f64 = 512.0;
-/// Nanoseconds for the filters of a canvas of that side, those of morphology's windows apart.
-/// Patches get coarser until theirs take a few seconds each; past this they would show little.
+/// Nanoseconds for the filters of a canvas of that size, without filters that have windows. Patches
+/// get coarser until their filters take a few seconds each; beyond this limit they would show
+/// little.
 const MAX_FILTER_NS: f64 = 2e10;
-/// As [`MAX_FILTER_NS`], for windows, which shrink twice as fast with the patch.
+/// As [`MAX_FILTER_NS`], for filters with windows, whose time falls twice as fast with the size of
+/// the patch.
 const MAX_WINDOW_NS: f64 = 1.28e12;
-/// Longer side of the canvas over the shorter one. Beyond it mip 0 has no texels for a side.
+/// Largest ratio of the sides of the canvas. Beyond it the shorter side of mip 0 has less than a
+/// texel.
 const MAX_ASPECT: f32 = 4096.0;
 
 /// Refuses a canvas without an area and a tree with too much in it.
@@ -64,7 +68,7 @@ pub(super) fn check_filters(tree: &usvg::Tree) -> Result<(), BakeError> {
     Ok(())
 }
 
-/// Size of a tree, counted up to just past the limits.
+/// Size of a tree. Counting stops just past the limits.
 #[derive(Default)]
 struct Census {
     nodes: usize,
@@ -76,6 +80,7 @@ impl Census {
     fn count(&mut self, group: &usvg::Group, depth: usize) {
         self.too_deep |= depth > MAX_DEPTH;
         for node in group.children() {
+            // Stop early: a tree past the limits may be huge.
             if self.too_deep || self.nodes > MAX_NODES || self.segments > MAX_SEGMENTS {
                 return;
             }

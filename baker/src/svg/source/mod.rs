@@ -1,4 +1,7 @@
-//! Bytes to a usvg tree: budgets first, then parsing with hooks that touch no file.
+//! From bytes to usvg's tree.
+//!
+//! Limits are checked first, on the text ([`text`], [`entities`]) and then on the tree
+//! ([`limits`]). usvg asks hooks for fonts and images; ours open no file ([`fonts`], [`images`]).
 
 mod entities;
 mod fonts;
@@ -14,7 +17,11 @@ use text::{GZIP_MAGIC, checked_text, gunzip};
 
 pub use fonts::font_selector;
 
-/// Parses an SVG or SVGZ at 96 dpi with the given fonts.
+/// Parses an SVG or SVGZ, at 96 dpi.
+///
+/// # Errors
+/// [`BakeError::Svg`] for text that is no SVG with an area, [`BakeError::Limit`] for one that asks
+/// for too much.
 pub(crate) fn parse(
     svg: &[u8],
     resources: &Resources,
@@ -35,7 +42,7 @@ pub(crate) fn parse(
         fontdb: resources.fonts.clone(),
         ..usvg::Options::default()
     };
-    // usvg is not known to panic, but it reads files nobody vouches for.
+    // usvg is not known to panic, but the input may be hostile.
     let tree = catch_unwind(AssertUnwindSafe(|| usvg::Tree::from_str(text, &options)))
         .map_err(|_| BakeError::Svg("the SVG parser failed".to_owned()))?
         .map_err(|e| bake_error(&e))?;

@@ -1,18 +1,18 @@
-//! Bytes to SVG text, within bounds.
+//! From bytes to SVG text: decompressing, decoding, limits.
 
 use std::io::Read;
 
 use super::entities;
 use crate::error::BakeError;
 
-/// Bytes of SVG text, packed or not. The largest real drawings (maps) are about 30 MiB; a gzip
-/// stream that unpacks to more is refused while it is read.
+/// Most bytes of SVG text. The largest real drawings, maps, have about 30 MiB. A gzip stream that
+/// decompresses to more is refused while it is read, so a bomb never takes its memory.
 const MAX_SVG_BYTES: usize = 64 << 20;
 
-/// How gzip streams begin.
+/// The first bytes of a gzip stream.
 pub(super) const GZIP_MAGIC: [u8; 2] = [0x1f, 0x8b];
 
-/// SVG text that is no longer than allowed, with its entities expanded too.
+/// The text of an SVG, if it is short enough, also with its entities expanded.
 pub(super) fn checked_text(bytes: &[u8]) -> Result<&str, BakeError> {
     if bytes.len() > MAX_SVG_BYTES {
         return Err(too_many_bytes());
@@ -30,7 +30,7 @@ pub(super) fn checked_text(bytes: &[u8]) -> Result<&str, BakeError> {
     Ok(text)
 }
 
-/// Unpacks an SVGZ, up to just past the limit.
+/// Decompresses an SVGZ, to one byte more than the limit at most.
 pub(super) fn gunzip(svgz: &[u8]) -> Result<Vec<u8>, BakeError> {
     let mut bytes = Vec::new();
     let bound = MAX_SVG_BYTES as u64 + 1;

@@ -1,4 +1,4 @@
-//! Clip paths as unions and intersections of outlines.
+//! Clip paths, as unions and intersections of outlines.
 
 use kurbo::{Affine, BezPath, PathEl, Rect};
 use usvg::{ClipPath, Group, Node};
@@ -15,18 +15,19 @@ use crate::{
     },
 };
 
-/// What members of a clip path come to.
+/// The union of the members of a clip path.
 enum Union {
-    /// One of them holds the canvas.
+    /// It contains the canvas.
     All,
-    /// Its parts, perhaps none.
+    /// Its parts; none if it is empty.
     Parts(Vec<ClipPart>),
 }
 
 impl Walker<'_, '_> {
-    /// The clips that all have to hold; `None` where nothing can show. Outlines are drawn with the
-    /// rule of `clip-rule`, which usvg gives as that of a fill.
+    /// The clips of a clip path and of the clip paths on it; a point must lie in all of them.
+    /// `None` if nothing can show. usvg gives the `clip-rule` as the rule of a fill.
     pub(super) fn clips(&mut self, path: &ClipPath, canvas_from_user: Affine) -> Option<Vec<Clip>> {
+        // A clip path on a clip path is intersected with it.
         let mut clips = match path.clip_path() {
             Some(outer) => self.clips(outer, canvas_from_user)?,
             None => Vec::new(),
@@ -40,7 +41,7 @@ impl Walker<'_, '_> {
         Some(clips)
     }
 
-    /// The clip of one outline; `None` where nothing can show.
+    /// The clip to one outline, or none if it contains the canvas; `None` if nothing can show.
     pub(super) fn clip_to(&mut self, outline: BezPath, rule: FillRule) -> Option<Vec<Clip>> {
         if self.holds_canvas(&outline) {
             return Some(Vec::new());
@@ -56,6 +57,7 @@ impl Walker<'_, '_> {
                 Node::Path(path) if path.is_visible() => {
                     let Some(fill) = path.fill() else { continue };
                     let outline = canvas_from_group * close_subpaths(&bez_path(path.data()));
+                    // The usual clip of exporters: a rectangle around the page.
                     if self.holds_canvas(&outline) {
                         return Union::All;
                     }
@@ -64,6 +66,7 @@ impl Walker<'_, '_> {
                 }
                 Node::Text(text) => self.union(text.flattened(), canvas_from_group),
                 Node::Group(inner) => self.clipped_union(inner, canvas_from_group),
+                // Invisible paths and images do not clip.
                 Node::Path(_) | Node::Image(_) => continue,
             };
             match more {
@@ -74,7 +77,7 @@ impl Walker<'_, '_> {
         Union::Parts(parts)
     }
 
-    /// A group inside a clip path, which may be clipped itself.
+    /// The union of a group inside a clip path. The group may be clipped itself.
     fn clipped_union(&mut self, group: &Group, canvas_from_parent: Affine) -> Union {
         let canvas_from_group = canvas_from_parent * affine(group.transform());
         let Some(clip) = group.clip_path() else {
@@ -86,7 +89,7 @@ impl Walker<'_, '_> {
         let mut parts = match self.union(group, canvas_from_group) {
             Union::Parts(parts) => parts,
             Union::All if clips.is_empty() => return Union::All,
-            // The clips alone decide: on the canvas itself.
+            // The clips alone decide. They need an outline to apply to: one around the canvas.
             Union::All => {
                 let canvas = kurbo::Shape::to_path(&self.canvas.inflate(1.0, 1.0), 0.1);
                 self.clip_part(canvas, FillRule::NonZero)
@@ -95,12 +98,13 @@ impl Walker<'_, '_> {
             }
         };
         for part in &mut parts {
+            // The clips of the group apply to each of its parts.
             part.clips.extend(clips.iter().cloned());
         }
         Union::Parts(parts)
     }
 
-    /// The outline as an item, where any of it shows.
+    /// The outline as an item; `None` if nothing of it shows.
     fn clip_part(&mut self, outline: BezPath, rule: FillRule) -> Option<ClipPart> {
         let bounds = outline.control_box();
         let shows = outline.is_finite() && bounds.area() > 0.0 && self.shows(bounds);
@@ -115,7 +119,7 @@ impl Walker<'_, '_> {
         })
     }
 
-    /// Whether the outline is a rectangle around the canvas, which clips nothing.
+    /// Whether the outline is a rectangle that contains the canvas: it clips nothing.
     fn holds_canvas(&self, outline: &BezPath) -> bool {
         let canvas = self.canvas;
         upright_box(outline).is_some_and(|area| {
@@ -127,7 +131,7 @@ impl Walker<'_, '_> {
     }
 }
 
-/// The rectangle that an outline is, sides along the axes.
+/// The rectangle, if the outline is one with sides along the axes.
 fn upright_box(outline: &BezPath) -> Option<Rect> {
     let mut corners = Vec::with_capacity(5);
     for element in outline.elements() {

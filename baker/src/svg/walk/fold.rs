@@ -1,4 +1,4 @@
-//! Groups whose opacity can be multiplied into what they hold.
+//! Folding: multiplying the opacity of a group into the paints of its shapes.
 
 use kurbo::{Affine, Rect};
 use usvg::{BlendMode, Group, Node};
@@ -6,18 +6,18 @@ use usvg::{BlendMode, Group, Node};
 use super::walker::Walker;
 use crate::svg::path::{affine, transformed_bounds};
 
-/// Shapes of a translucent group that are compared with each other for overlap.
+/// Most shapes of a group that is folded. All pairs are compared for overlap.
 const MAX_FOLDED_SHAPES: usize = 64;
 
 impl Walker<'_, '_> {
-    /// Whether multiplying the group's opacity into its shapes gives the same picture: all of it
-    /// is shapes, and no two of them overlap.
+    /// Whether folding the group gives the same picture. It does if the group holds only shapes and
+    /// no two of them overlap: with an overlap the lower shape would show through the upper one.
     pub(super) fn folds(&self, group: &Group) -> bool {
         let mut shapes = Vec::new();
         self.gather(group, Affine::IDENTITY, &mut shapes) && disjoint(&shapes)
     }
 
-    /// Bounds of every shape; `false` when there is anything else or there are too many.
+    /// Collects the box of every shape; `false` if there is anything else or there are too many.
     fn gather(&self, group: &Group, transform: Affine, shapes: &mut Vec<Rect>) -> bool {
         group.children().iter().all(|node| match node {
             Node::Group(child) => {
@@ -28,6 +28,8 @@ impl Walker<'_, '_> {
                 let bounds = transformed_bounds(path.stroke_bounding_box(), transform);
                 let parts =
                     usize::from(path.fill().is_some()) + usize::from(path.stroke().is_some());
+                // Fill and stroke of a path overlap: with both the box is counted twice and meets
+                // itself.
                 shapes.extend(std::iter::repeat_n(bounds, parts));
                 shapes.len() <= MAX_FOLDED_SHAPES && self.foreign_paint(path).is_none()
             }
@@ -41,7 +43,7 @@ impl Walker<'_, '_> {
     }
 }
 
-/// Whether a group's picture is more than the sum of its shapes, opacity aside.
+/// Whether a group does anything to its shapes as a whole, apart from opacity.
 fn has_effect(group: &Group) -> bool {
     !group.filters().is_empty()
         || group.mask().is_some()

@@ -1,4 +1,4 @@
-//! usvg's gradients as paints in uv of the canvas.
+//! Gradients, as paints in uv.
 
 use std::sync::Arc;
 
@@ -7,16 +7,17 @@ use vtex_format::{Gradient, GradientShape, GradientStop, MAX_GRADIENT_STOPS, Spr
 
 use crate::{drawing::Paint, number::to_f32, svg::path::affine};
 
-/// Lengths below this share of the end circle's radius are none.
+/// Share of the end circle's radius below which a length counts as 0.
 const NOTHING: f64 = 1e-6;
 
-/// Whether it has more stops than a paint can.
-pub(crate) fn has_too_many_stops(gradient: &usvg::BaseGradient) -> bool {
+/// Whether it has more stops than a paint may have.
+pub(super) fn has_too_many_stops(gradient: &usvg::BaseGradient) -> bool {
     gradient.stops().len() > MAX_GRADIENT_STOPS as usize
 }
 
-/// `None` where nothing is painted. `uv_from_user` maps the space of the element that is painted.
-pub(crate) fn linear(
+/// The paint of a linear gradient; `None` if it paints nothing. `uv_from_user` maps the space of
+/// the painted element.
+pub(super) fn linear(
     gradient: &usvg::LinearGradient,
     opacity: f32,
     uv_from_user: Affine,
@@ -27,7 +28,7 @@ pub(crate) fn linear(
     let start = point(gradient.x1(), gradient.y1());
     let along = point(gradient.x2(), gradient.y2()) - start;
     let squared = along.hypot2();
-    // SVG 2 sec. 14.2.2.1: the last stop's colour where both ends are one point.
+    // SVG 2 sec. 14.2.2.1: if both ends coincide, the colour of the last stop fills everything.
     if squared <= 0.0 {
         return solid(&stops);
     }
@@ -36,7 +37,7 @@ pub(crate) fn linear(
     let mut t_from_uv = [t(a, b), t(c, d), t(e - start.x, f - start.y)];
     let spread = spread(gradient);
     if spread != Spread::Pad {
-        // Whole periods change nothing and take digits.
+        // Remove whole periods: they change nothing, but in f32 they cost digits of t.
         let middle = 0.5 * (t_from_uv[0] + t_from_uv[1]) + t_from_uv[2];
         t_from_uv[2] -= 2.0 * (0.5 * middle).floor();
     }
@@ -46,8 +47,8 @@ pub(crate) fn linear(
     finished(shape, spread, stops)
 }
 
-/// As [`linear`].
-pub(crate) fn radial(
+/// The paint of a radial gradient, as [`linear`].
+pub(super) fn radial(
     gradient: &usvg::RadialGradient,
     opacity: f32,
     uv_from_user: Affine,
@@ -64,10 +65,12 @@ pub(crate) fn radial(
     let mut distance = between.hypot() / radius;
     let mut focal_radius = f64::from(gradient.fr().get()) / radius;
     let mut angle = between.atan2();
+    // A focus at the centre: the angle between them means nothing.
     if distance < NOTHING {
         (distance, angle) = (0.0, 0.0);
         if (focal_radius - 1.0).abs() < NOTHING {
-            // Both circles are one. As tiny-skia has it: the first colour inside, the last outside.
+            // Both circles are the same. As in tiny-skia: the first colour inside, the last
+            // outside.
             if spread(gradient) != Spread::Pad {
                 return None;
             }
@@ -75,6 +78,7 @@ pub(crate) fn radial(
             stops = ring(&stops)?;
         }
     }
+    // Into the space of the end circle: focus at the origin, centre on the x axis, radius 1.
     let circle_from_gradient =
         Affine::rotate(-angle) * Affine::scale(1.0 / radius) * Affine::translate(-focus.to_vec2());
     let circle_from_uv = (circle_from_gradient * gradient_from_uv).as_coeffs();
@@ -86,14 +90,14 @@ pub(crate) fn radial(
     finished(shape, spread(gradient), stops)
 }
 
-/// The first colour up to offset 1, the last from there on.
+/// Stops with the first colour up to offset 1 and the last colour from there on.
 fn ring(stops: &[GradientStop]) -> Option<Vec<GradientStop>> {
     let (first, last) = (stops.first()?, stops.last()?);
     let at = |offset, stop: &GradientStop| GradientStop { offset, ..*stop };
     Some(vec![at(0.0, first), at(1.0, first), at(1.0, last)])
 }
 
-/// `None` for a transform that maps everything to a line: nothing is painted then.
+/// `None` for a transform that maps everything to a line: such a gradient paints nothing.
 fn gradient_from_uv(gradient: &usvg::BaseGradient, uv_from_user: Affine) -> Option<Affine> {
     let uv_from_gradient = uv_from_user * affine(gradient.transform());
     let inverse = uv_from_gradient.inverse();
@@ -111,7 +115,7 @@ fn spread(gradient: &usvg::BaseGradient) -> Spread {
 fn stops(gradient: &usvg::BaseGradient, opacity: f32) -> Vec<GradientStop> {
     let mut least = 0.0_f32;
     let stop = |stop: &usvg::Stop| {
-        // SVG 2 sec. 14.2.4.1: an offset is at least that of the stop before.
+        // SVG 2 sec. 14.2.4.1: an offset is never less than that of the stop before.
         least = least.max(stop.offset().get());
         let color = stop.color();
         let [r, g, b] = [color.red, color.green, color.blue].map(|v| f32::from(v) / 255.0);
@@ -124,11 +128,12 @@ fn stops(gradient: &usvg::BaseGradient, opacity: f32) -> Vec<GradientStop> {
     gradient.stops().iter().map(stop).collect()
 }
 
-/// The last stop's colour.
+/// The colour of the last stop.
 fn solid(stops: &[GradientStop]) -> Option<Paint> {
     stops.last().map(|stop| Paint::Solid(stop.color))
 }
 
+/// The gradient, or a solid paint if it has one colour everywhere.
 fn finished(shape: GradientShape, spread: Spread, stops: Vec<GradientStop>) -> Option<Paint> {
     let finite = match shape {
         GradientShape::Linear { t_from_uv } => t_from_uv.iter().all(|n| n.is_finite()),
@@ -141,11 +146,12 @@ fn finished(shape: GradientShape, spread: Spread, stops: Vec<GradientStop>) -> O
             numbers.all(|n| n.is_finite())
         }
     };
-    // What is shorter than any float can say is none.
+    // A gradient too short for f32 numbers has only its last colour.
     if !finite {
         return solid(&stops);
     }
     let one_color = stops.windows(2).all(|pair| pair[0].color == pair[1].color);
+    // One colour everywhere; but some radial gradients leave points without a colour.
     if one_color && shape.leading() < 0.0 {
         return solid(&stops);
     }

@@ -1,4 +1,4 @@
-//! Groups: what clips, masks, opacity and blending make of their children.
+//! Groups: clips, masks, opacity, blend modes and filters.
 
 use kurbo::Shape as _;
 use usvg::{BlendMode, Group, MaskType, Node};
@@ -11,12 +11,12 @@ use super::{
 use crate::{
     drawing::{
         FillRule,
-        tree::{self, Clip, Mask, Scope},
+        tree::{self, Clip, Mask},
     },
     svg::path::affine,
 };
 
-/// What is done to a group as a whole.
+/// What is done to a group as a whole; by default nothing.
 #[derive(Debug)]
 pub(super) struct Effects {
     pub(super) clips: Vec<Clip>,
@@ -39,15 +39,19 @@ impl Default for Effects {
 }
 
 impl<'a> Walker<'a, '_> {
+    /// Adds a group and what is in it. A filter that only changes colours is applied to the
+    /// colours; any other makes the group a subtree for resvg.
     pub(super) fn group(&mut self, node: &'a Node, group: &'a Group, place: Place<'a>) {
         let mut place = place;
         if !group.filters().is_empty() {
+            // A change of colours inside another is left to resvg.
             let recolor = Recolor::of(group).filter(|_| place.recolor.is_none());
             if recolor.is_none() {
                 return self.filtered(node, group, place);
             }
             place.recolor = recolor;
         }
+        // Inside a folded group every opacity folds; an opacity of 1 always does.
         let folds = place.opacity < 1.0 || group.opacity() == usvg::Opacity::ONE;
         let folds = folds || self.folds(group);
         let own = group.opacity().get();
@@ -59,10 +63,13 @@ impl<'a> Walker<'a, '_> {
         let effects = Effects {
             opacity: if folds { 1.0 } else { own },
             blend: blend_mode(group.blend_mode()),
+            // A group whose blend mode sees its backdrop is composited as a whole. Isolation
+            // matters otherwise only if something inside could see through it.
             isolated: blends(group) || group.should_isolate() && holds_open_blend(group),
             ..Effects::default()
         };
         let grouped = effects.isolated || effects.opacity < 1.0 || group.mask().is_some();
+        // The rectangle of a mask is a clip too.
         let clips = group.clip_path().map_or(0, clip_depth) + u32::from(group.mask().is_some());
         let Some(inner) = inner.deeper(clips + u32::from(grouped)) else {
             return self.raster(node, place, "nesting");
@@ -70,11 +77,11 @@ impl<'a> Walker<'a, '_> {
         let first = self.next_item();
         let mut effects = effects;
         if self.clips_and_masks(group, inner, &mut effects).is_some() {
-            self.scope(first, effects, |walker| walker.children(group, inner));
+            self.add_group(first, effects, |walker| walker.children(group, inner));
         }
     }
 
-    /// A group that a filter makes pixels of; blending is not the filter's.
+    /// A group that resvg has to paint because of its filter. Its blend mode stays the evaluator's.
     fn filtered(&mut self, node: &'a Node, group: &'a Group, place: Place<'a>) {
         if !blends(group) {
             return self.raster(node, place, "filter");
@@ -84,15 +91,16 @@ impl<'a> Walker<'a, '_> {
             isolated: true,
             ..Effects::default()
         };
-        self.scope(self.next_item(), effects, |walker| {
+        self.add_group(self.next_item(), effects, |walker| {
             walker.raster(node, place, "filter");
         });
     }
 
-    /// A node of what `walk` adds; its items begin with `first`, those of the effects among them.
-    pub(super) fn scope(&mut self, first: u32, effects: Effects, walk: impl FnOnce(&mut Self)) {
+    /// Adds a group of the nodes that `walk` adds. `first` is its first item: items of its effects
+    /// have been added before the walk. Without any effect the nodes are added without a group.
+    pub(super) fn add_group(&mut self, first: u32, effects: Effects, walk: impl FnOnce(&mut Self)) {
         let children = self.collected(walk);
-        let scope = Scope {
+        let group = tree::Group {
             items: [first, self.next_item()],
             clips: effects.clips,
             masks: effects.masks,
@@ -101,14 +109,14 @@ impl<'a> Walker<'a, '_> {
             isolated: effects.isolated,
             children,
         };
-        if scope.clips.is_empty() && !scope.is_group() {
-            self.nodes.extend(scope.children);
-        } else if !scope.children.is_empty() {
-            self.nodes.push(tree::Node::Scope(Box::new(scope)));
+        if group.clips.is_empty() && !group.is_group() {
+            self.nodes.extend(group.children);
+        } else if !group.children.is_empty() {
+            self.nodes.push(tree::Node::Group(Box::new(group)));
         }
     }
 
-    /// Clips and masks of a group; `None` where they let nothing show.
+    /// Adds clips and masks of a group to its effects; `None` if they let nothing show.
     fn clips_and_masks(
         &mut self,
         group: &'a Group,
@@ -124,7 +132,7 @@ impl<'a> Walker<'a, '_> {
         Some(())
     }
 
-    /// A mask and the masks on it, of which each fades the group by itself.
+    /// Adds a mask, after the mask on it if there is one: each weights the group independently.
     fn mask(
         &mut self,
         mask: &'a usvg::Mask,
@@ -147,12 +155,14 @@ impl<'a> Walker<'a, '_> {
             .clips
             .extend(self.clip_to(outline, FillRule::NonZero)?);
         let first = self.next_item();
+        // The mask's picture is not part of the group: nothing of its surroundings applies.
         let place = Place {
             opacity: 1.0,
             recolor: None,
             ..place
         };
         let children = self.collected(|walker| walker.children(mask.root(), place));
+        // A mask that shows nothing weights with 0 everywhere.
         if children.is_empty() {
             return None;
         }
@@ -168,8 +178,8 @@ impl<'a> Walker<'a, '_> {
     }
 }
 
-/// Jumps that wait at once while the clip is tested and its group drawn: one past the group for
-/// each clip that holds another, one past the rest of a union.
+/// How many jumps can be pending at once while the clip is tested and its group drawn: for each
+/// clip that contains another one past the group, and one past the rest of a union.
 fn clip_depth(clip: &usvg::ClipPath) -> u32 {
     let outer = clip.clip_path().map_or(0, clip_depth);
     2 + outer + nested_clip_depth(clip.root())
@@ -183,12 +193,13 @@ fn nested_clip_depth(group: &Group) -> u32 {
     group.children().iter().map(depth).max().unwrap_or(0)
 }
 
-/// Whether a group's blend mode sees what lies behind it.
+/// Whether a group has a blend mode that depends on what lies behind it.
 fn blends(group: &Group) -> bool {
     group.blend_mode() != BlendMode::Normal
 }
 
-/// Whether something in the group blends with what is behind it inside the group.
+/// Whether a group inside has a blend mode whose backdrop is this group's content, and what lies
+/// behind it unless the group is isolated.
 pub(super) fn holds_open_blend(group: &Group) -> bool {
     group.children().iter().any(|node| match node {
         Node::Group(child) => blends(child) || (!child.should_isolate() && holds_open_blend(child)),

@@ -1,4 +1,10 @@
-//! The walk over a usvg tree in painter's order.
+//! The walk through usvg's tree, in painter's order.
+//!
+//! usvg has resolved styles, references and text already. The walk turns paths into shapes: it
+//! expands strokes ([`shapes`]) and patterns ([`pattern`]). Groups become groups of the drawing
+//! ([`group`],
+//! [`clip`]), unless their opacity can be multiplied into their shapes ([`fold`]). Whatever no
+//! shape can be is left to resvg as a subtree.
 
 mod clip;
 mod fold;
@@ -22,7 +28,7 @@ use walker::{MAX_OUTLINE_ELEMENTS, Place, Walker};
 
 pub(crate) use walker::WalkOptions;
 
-/// Sorts the tree into shapes and subtrees. What lies outside the canvas is left out.
+/// Sorts the tree into shapes and subtrees. What lies beside the canvas is left out.
 ///
 /// # Errors
 /// [`BakeError::Limit`] when outlines have too many elements together.
@@ -69,6 +75,7 @@ pub(crate) fn plan<'a>(
 }
 
 impl<'a> Walker<'a, '_> {
+    /// Walks the children of a group.
     pub(super) fn children(&mut self, group: &'a Group, place: Place<'a>) {
         for node in group.children() {
             if self.element_count > MAX_OUTLINE_ELEMENTS {
@@ -92,7 +99,7 @@ impl<'a> Walker<'a, '_> {
         }
     }
 
-    /// An SVG in an `image`, which blends with nothing outside.
+    /// An SVG in an `<image>`. Its blend modes see nothing of what lies behind the image.
     fn nested(&mut self, node: &'a Node, tree: &'a usvg::Tree, place: Place<'a>) {
         if !holds_open_blend(tree.root()) {
             return self.children(tree.root(), place);
@@ -104,7 +111,7 @@ impl<'a> Walker<'a, '_> {
             isolated: true,
             ..Effects::default()
         };
-        self.scope(self.next_item(), effects, |walker| {
+        self.add_group(self.next_item(), effects, |walker| {
             walker.children(tree.root(), inner);
         });
     }

@@ -1,4 +1,8 @@
-//! Patterns of shapes, expanded: every tile that shows becomes outlines.
+//! Expanding patterns: every tile that shows becomes outlines.
+//!
+//! A painted shape becomes a group that is clipped to the shape and holds all tiles under it. Where
+//! the content is plain, all copies of one shape become a single shape of many contours. A pattern
+//! that would need too many outlines is left to resvg.
 
 use kurbo::{Affine, BezPath, Rect, Shape as _};
 use usvg::{Group, Node, Pattern};
@@ -16,18 +20,18 @@ use crate::{
     },
 };
 
-/// Path elements that one expanded pattern may take; past it the pattern is a patch.
+/// Most path elements of one expanded pattern. A pattern that needs more becomes a patch.
 const MAX_ELEMENTS: f64 = 262_144.0;
-/// Tiles that are walked one by one, where they cannot share outlines.
+/// Most tiles that are walked one by one, where copies cannot share an outline.
 const MAX_WALKED_TILES: f64 = 4096.0;
-/// Frames of a pattern: clip of the shape, its opacity, clip of the tile.
+/// Frames that a pattern takes: the clip to the shape, its opacity, the clip to the tile.
 const FRAMES: u32 = 5;
-/// Patterns inside patterns inside the pattern that are expanded.
+/// Levels of patterns inside a pattern that are expanded.
 const LEVELS: u32 = 1;
-/// How far content may reach beyond its tile before it is cut off, as a share of the tile.
+/// How far content may reach beyond its tile without being clipped to it, as a share of the tile.
 const OVERHANG: f64 = 1e-6;
 
-/// The tiles that may show: columns and rows from the tile at the pattern's origin.
+/// The tiles that may show: a range of columns and of rows, counted from the tile at the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Tiles {
     canvas_from_pattern: Affine,
@@ -37,7 +41,7 @@ struct Tiles {
 }
 
 impl Tiles {
-    /// Those under `bounds`, in canvas space; `None` without any.
+    /// The tiles under `bounds`, which are in canvas space; `None` if there are none.
     fn under(pattern: &Pattern, canvas_from_user: Affine, bounds: Rect) -> Option<Self> {
         let canvas_from_pattern = canvas_from_user * affine(pattern.transform());
         let rect = transformed_bounds(pattern.rect().to_rect(), Affine::IDENTITY);
@@ -46,6 +50,7 @@ impl Tiles {
         if !sound || bounds.area() <= 0.0 {
             return None;
         }
+        // Back from the canvas to the pattern, where tiles are a plain grid.
         let area = canvas_from_pattern.inverse().transform_rect_bbox(bounds);
         let span = |low: f64, high: f64, origin: f64, size: f64| {
             [
@@ -65,7 +70,7 @@ impl Tiles {
         (self.columns[1] - self.columns[0]) * (self.rows[1] - self.rows[0])
     }
 
-    /// What brings a tile's content to the canvas, tile by tile.
+    /// The transform of each tile's content to the canvas.
     fn places(self) -> impl Iterator<Item = Affine> {
         let steps = |[first, last]: [f64; 2]| {
             std::iter::successors(Some(first), |at| Some(at + 1.0)).take_while(move |&at| at < last)
@@ -79,14 +84,14 @@ impl Tiles {
         })
     }
 
-    /// The tile's own area, origin at its corner.
+    /// The rectangle of a tile, with its corner at the origin.
     fn tile(&self) -> Rect {
         Rect::new(0.0, 0.0, self.rect.width(), self.rect.height())
     }
 }
 
 impl<'a> Walker<'a, '_> {
-    /// Whether the patterns that paint `path` can be expanded.
+    /// Whether all patterns that paint the path can be expanded.
     pub(super) fn expands_patterns(&self, path: &usvg::Path, place: Place<'_>) -> bool {
         let fill = path.fill().filter(|_| self.options.fill_color.is_none());
         let stroke = path
@@ -108,7 +113,7 @@ impl<'a> Walker<'a, '_> {
         })
     }
 
-    /// Fills `outline` with what the pattern shows.
+    /// Adds what the pattern shows inside an outline.
     pub(super) fn pattern(
         &mut self,
         pattern: &'a Pattern,
@@ -136,7 +141,7 @@ impl<'a> Walker<'a, '_> {
             isolated: holds_open_blend(pattern.root()),
             ..Effects::default()
         };
-        self.scope(first, effects, |walker| walker.tiles(pattern, tiles, inner));
+        self.add_group(first, effects, |walker| walker.tiles(pattern, tiles, inner));
     }
 
     fn tiles(&mut self, pattern: &'a Pattern, tiles: Tiles, place: Place<'a>) {
@@ -146,6 +151,7 @@ impl<'a> Walker<'a, '_> {
         );
         let tile = tiles.tile();
         let (slack_x, slack_y) = (OVERHANG * tile.width(), OVERHANG * tile.height());
+        // Content within its tile needs no clip, which saves a test for every tile.
         let fits = tile.inflate(slack_x, slack_y).union(content) == tile.inflate(slack_x, slack_y);
         if fits && self.shared_tiles(pattern, tiles, place) {
             return;
@@ -168,7 +174,7 @@ impl<'a> Walker<'a, '_> {
         }
     }
 
-    /// A tile whose content reaches beyond it.
+    /// Adds a tile that must clip its content.
     fn clipped_tile(&mut self, pattern: &'a Pattern, tile: Rect, place: Place<'a>) {
         let first = self.next_item();
         let outline = place.canvas_from_user * tile.to_path(0.1);
@@ -180,19 +186,21 @@ impl<'a> Walker<'a, '_> {
             isolated: holds_open_blend(pattern.root()),
             ..Effects::default()
         };
-        self.scope(first, effects, |walker| {
+        self.add_group(first, effects, |walker| {
             walker.children(pattern.root(), place);
         });
     }
 
-    /// Content that is plain shapes of solid colours: the same shape of all tiles is one outline,
-    /// since tiles do not overlap. `false`, and nothing added, where it is anything else.
+    /// Adds all tiles at once: each shape of the content becomes one shape with a copy in every
+    /// tile. Tiles do not overlap, so the order between them is free. Works for shapes of solid
+    /// colours only; for anything else it adds nothing and returns `false`.
     fn shared_tiles(&mut self, pattern: &'a Pattern, tiles: Tiles, place: Place<'a>) -> bool {
         let Some(place_of_one) = tiles.places().next() else {
             return true;
         };
         let (first, elements) = (self.steps.len(), self.element_count);
-        // Walked in a place where all of it shows: none of it may be left out as unseen.
+        // The first tile is walked and copied. Nothing of it may be left out, even if it does not
+        // show in this tile.
         let everywhere = Rect::new(-1e9, -1e9, 1e9, 1e9);
         let window = std::mem::replace(&mut self.window, everywhere);
         let nodes = self.collected(|walker| {
@@ -205,11 +213,13 @@ impl<'a> Walker<'a, '_> {
         self.window = window;
         let steps = self.steps.split_off(first);
         self.element_count = elements;
+        // Groups would have to be copied with their items.
         let plain = nodes.iter().all(|node| matches!(node, tree::Node::Item(_)))
             && steps.iter().all(is_plain);
         if !plain {
             return false;
         }
+        // From the place of the tile that was walked to the tile's own space.
         let one_from_canvas = place_of_one.inverse();
         for step in steps {
             let Step::Shape(shape) = step else { continue };
@@ -230,13 +240,14 @@ fn is_plain(step: &Step<'_>) -> bool {
     matches!(step, Step::Shape(shape) if matches!(shape.paint, Paint::Solid(_)))
 }
 
-/// About how many path elements a group comes to, patterns inside it `levels` deep; infinite where
-/// they nest deeper.
+/// About how many path elements a group becomes, with patterns inside it expanded. Infinite if they
+/// nest deeper than `levels`.
 fn weight(group: &Group, levels: u32) -> f64 {
     let of = |node: &Node| match node {
         Node::Group(group) => 4.0 + weight(group, levels),
         Node::Path(path) => {
             let verbs = count(path.data().verbs().len());
+            // An expanded stroke has about four elements for each of the line.
             let strokes = if path.stroke().is_some() { 4.0 } else { 0.0 };
             let paints = [
                 path.fill().map(usvg::Fill::paint),
@@ -257,7 +268,7 @@ fn weight(group: &Group, levels: u32) -> f64 {
             verbs * (1.0 + strokes) + tiled.sum::<f64>()
         }
         Node::Text(text) => weight(text.flattened(), levels),
-        // A patch a tile.
+        // Every tile would get a patch of its own.
         Node::Image(_) => 4096.0,
     };
     1.0 + group.children().iter().map(of).sum::<f64>()

@@ -1,25 +1,26 @@
-//! Filters that only change colours, applied to the colours instead of to pixels.
+//! Filters that only change colours: they are applied to paints, so their content stays vector.
 //!
-//! A matrix that keeps alpha is linear in premultiplied colour and alpha, so in sRGB it may be applied
-//! to what is composited before or after: filter effects, section 9.6, `feColorMatrix`. In linear
-//! light that holds where nothing is mixed: of a single shape, or where all are opaque.
+//! This is exact for a `feColorMatrix` (Filter Effects 1, sec. 9.6) that keeps alpha. Such a matrix
+//! is linear in premultiplied colour and alpha, and so is compositing; in sRGB-encoded values it
+//! makes no difference which comes first. A filter in linear light is exact only if no colours are
+//! mixed: shapes have solid colours, and there is one shape or all are opaque.
 
 use usvg::filter::{ColorInterpolation, ColorMatrix, ColorMatrixKind, Filter, Input, Kind};
 use usvg::{BlendMode, Group, Node};
 
 use crate::drawing::color;
 
-/// A change of straight colours that leaves alpha alone.
+/// A change of colours that keeps alpha.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Recolor {
-    /// Rows of red, green, blue; the last column is constant.
+    /// Rows for red, green and blue; the last column is added.
     rows: [[f32; 4]; 3],
-    /// Whether it counts in linear light.
+    /// Whether it applies to linear light.
     linear: bool,
 }
 
 impl Recolor {
-    /// What the filters of a group come to, where that is all they do.
+    /// The change that the filters of a group make, if they do nothing else.
     pub(super) fn of(group: &Group) -> Option<Self> {
         let [filter] = group.filters() else {
             return None;
@@ -28,6 +29,7 @@ impl Recolor {
         let contents = Contents::of(group);
         let region = filter.rect().to_rect();
         let drawn = group.stroke_bounding_box();
+        // A filter region cuts off what lies outside of it.
         let inside = region.left() <= drawn.left()
             && region.top() <= drawn.top()
             && region.right() >= drawn.right()
@@ -49,7 +51,7 @@ impl Recolor {
         })
     }
 
-    /// The changed colour, straight alpha, sRGB-encoded.
+    /// The changed colour: straight alpha, sRGB-encoded.
     pub(super) fn apply(&self, [r, g, b, a]: [f32; 4]) -> [f32; 4] {
         let from = if self.linear {
             [r, g, b].map(color::decode)
@@ -57,6 +59,7 @@ impl Recolor {
             [r, g, b]
         };
         let changed = self.rows.map(|row| {
+            // Filter Effects clamps results to [0, 1].
             let value = row[0] * from[0] + row[1] * from[1] + row[2] * from[2] + row[3];
             value.clamp(0.0, 1.0)
         });
@@ -69,12 +72,12 @@ impl Recolor {
     }
 }
 
-/// The matrix of a primitive that reads the group and keeps alpha.
+/// The matrix of a primitive, if it reads the group and keeps alpha.
 fn rows(matrix: &ColorMatrix) -> Option<[[f32; 4]; 3]> {
     if *matrix.input() != Input::SourceGraphic {
         return None;
     }
-    // Both are made of luminance and what a rotation or a factor leaves of the rest.
+    // `saturate` and `hueRotate` keep luminance, and scale or rotate the rest.
     let mixed = |cos: f32, sin: f32| {
         const LIGHT: [f32; 3] = [0.213, 0.715, 0.072];
         const TURN: [[f32; 3]; 3] = [
@@ -92,6 +95,7 @@ fn rows(matrix: &ColorMatrix) -> Option<[[f32; 4]; 3]> {
         ColorMatrixKind::Matrix(values) => {
             let row = |first: usize| {
                 let [r, g, b, a, constant] = *values.get(first..)?.first_chunk()?;
+                // Alpha must not enter: the change has to work on straight colours.
                 (a == 0.0).then_some([r, g, b, constant])
             };
             let keeps_alpha = values.get(15..20)? == [0.0, 0.0, 0.0, 1.0, 0.0];
@@ -106,16 +110,16 @@ fn rows(matrix: &ColorMatrix) -> Option<[[f32; 4]; 3]> {
     }
 }
 
-/// What a group shows.
+/// What a group contains.
 #[derive(Clone, Copy, Debug)]
 struct Contents {
     /// Fills and strokes.
     shapes: usize,
-    /// Nothing but shapes, composited normally.
+    /// Whether there are only shapes, composited normally.
     plain: bool,
-    /// All of one colour each.
+    /// Whether each has one colour.
     solid: bool,
-    /// None of them translucent.
+    /// Whether all are opaque.
     opaque: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Paths: their fills and strokes as shapes.
+//! Paths: a fill and a stroke each become a shape.
 
 use kurbo::{Affine, BezPath};
 use usvg::{Node, PaintOrder};
@@ -19,7 +19,7 @@ use crate::{
 };
 
 impl<'a> Walker<'a, '_> {
-    /// A path as shapes, or whole for resvg.
+    /// Adds a path as shapes, or as a subtree if no shape can have its paint.
     pub(super) fn path(&mut self, node: &'a Node, path: &'a usvg::Path, place: Place<'a>) {
         if !path.is_visible() {
             return;
@@ -42,6 +42,7 @@ impl<'a> Walker<'a, '_> {
     fn fill(&mut self, path: &'a usvg::Path, place: Place<'a>) {
         let bounds = path.data().bounds();
         let Some(fill) = path.fill() else { return };
+        // No area to fill. A stroke may still show.
         if bounds.width() <= 0.0 || bounds.height() <= 0.0 {
             return;
         }
@@ -90,7 +91,7 @@ impl<'a> Walker<'a, '_> {
         );
     }
 
-    /// A replacement's own alpha multiplies the opacity of the shape.
+    /// The paint of a shape. The alpha of a replacement multiplies the shape's opacity.
     fn paint(
         &self,
         paint: &usvg::Paint,
@@ -115,6 +116,7 @@ impl<'a> Walker<'a, '_> {
         }
     }
 
+    /// Adds a shape, if any of it shows.
     fn shape(
         &mut self,
         outline: BezPath,
@@ -126,11 +128,13 @@ impl<'a> Walker<'a, '_> {
         let Some(paint) = paint.filter(Paint::shows) else {
             return;
         };
+        // Recoloured here, after the opacity is folded in: the change keeps alpha.
         let paint = match place.recolor {
             Some(recolor) => paint.mapped(|color| recolor.apply(color)),
             None => paint,
         };
         let bounds = outline.control_box();
+        // Transforms of an SVG can overflow.
         if !outline.is_finite() || !self.shows(bounds) {
             return;
         }
@@ -148,7 +152,7 @@ impl<'a> Walker<'a, '_> {
         }));
     }
 
-    /// The first paint of a visible path that no shape can have.
+    /// The feature of the path's first paint that is neither a colour nor a gradient of few stops.
     pub(super) fn foreign_paint(&self, path: &usvg::Path) -> Option<&'static str> {
         let fill = path.fill().filter(|_| self.options.fill_color.is_none());
         let stroke = path
@@ -158,13 +162,14 @@ impl<'a> Walker<'a, '_> {
             .or_else(|| stroke.and_then(|s| foreign(s.paint())))
     }
 
-    /// What of a path's paints resvg has to draw.
+    /// The feature of a paint for which resvg has to paint the path.
     fn raster_paint(&self, path: &usvg::Path, place: Place<'_>) -> Option<&'static str> {
         self.foreign_paint(path)
             .filter(|&feature| feature != "pattern" || !self.expands_patterns(path, place))
     }
 }
 
+/// The feature of a paint that no shape can have directly. Patterns can often be expanded.
 fn foreign(paint: &usvg::Paint) -> Option<&'static str> {
     match paint {
         usvg::Paint::Color(_) => None,

@@ -1,10 +1,10 @@
-//! What usvg says about fills and strokes, in the baker's terms.
+//! usvg's fill rules and stroke styles, in the baker's terms.
 
 use kurbo::{Cap, Join};
 
 use crate::{drawing::FillRule, geometry::stroke::StrokeStyle};
 
-/// The inside test of a fill.
+/// The fill rule.
 pub(super) fn fill_rule(rule: usvg::FillRule) -> FillRule {
     match rule {
         usvg::FillRule::NonZero => FillRule::NonZero,

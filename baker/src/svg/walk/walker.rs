@@ -1,4 +1,4 @@
-//! What a walk has found so far, and what each place in the tree hands down.
+//! The state of a walk: what it has found so far, and what a node inherits from its ancestors.
 
 use kurbo::{Affine, BezPath, Rect};
 use usvg::{ImageKind, Node};
@@ -15,54 +15,60 @@ use crate::{
     warning::Warnings,
 };
 
-/// Canvas sizes that a shape may reach beyond the canvas. usvg's coordinates are f32: further out
-/// they are sixteenths of a canvas apart. A rectangle may still mean a ground without end, but the
-/// arcs of a circle are noise there, and millions of them.
+/// How far a shape may reach, in canvases. usvg's coordinates are f32: further out neighbouring
+/// ones are a sixteenth of a canvas or more apart. A rectangle of that size may still be meant as
+/// an endless background, but the arcs of a circle are noise there, and there can be millions of
+/// them.
 const MAX_REACH: f64 = 1_048_576.0;
-/// Path elements of a shape that may reach further.
+/// Most path elements of a shape that reaches further.
 const MAX_FAR_ELEMENTS: usize = 256;
-/// Path elements of all outlines together, strokes expanded; the stages that follow hold several
+/// Most path elements of all outlines together, with strokes expanded. Later stages hold several
 /// copies of each.
 pub(super) const MAX_OUTLINE_ELEMENTS: usize = 1 << 22;
-/// Frames of an evaluator that groups and clips around an item may take; the rest is for what a list
-/// of one cell adds.
+/// Most frames that the groups and clips around an item may take on an evaluator's stack. Two
+/// remain for what the list of a cell adds.
 const MAX_DEPTH: u32 = MAX_FRAMES - 2;
 
-/// What of the options changes geometry and colours.
+/// The options that change geometry and colours.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WalkOptions {
     /// Pixels along the canvas' longer side at the largest zoom, for which strokes must be right.
     pub(crate) longer_side_px: f64,
-    /// Replaces fills.
+    /// Replaces the paint of fills.
     pub(crate) fill_color: Option<[f32; 4]>,
-    /// Replaces strokes.
+    /// Replaces the paint of strokes.
     pub(crate) stroke_color: Option<[f32; 4]>,
 }
 
-/// The steps so far, and the nodes of the group that is being walked.
+/// A walk and what it has found so far.
 pub(super) struct Walker<'a, 'w> {
     pub(super) options: WalkOptions,
     pub(super) warnings: &'w Warnings,
     pub(super) canvas: Rect,
-    /// What outlines have to meet to be kept: the canvas, unless they are copied elsewhere.
+    /// The canvas. What does not meet it is left out. While one tile of a pattern is walked to be
+    /// copied, it is larger.
     pub(super) window: Rect,
     pub(super) quality: StrokeQuality,
+    /// The items so far.
     pub(super) steps: Vec<Step<'a>>,
+    /// The nodes so far of the group that is being walked.
     pub(super) nodes: Vec<tree::Node>,
-    /// Path elements of all outlines so far; past the limit nothing more is made.
+    /// Path elements of all outlines so far. Past the limit nothing is added.
     pub(super) element_count: usize,
 }
 
-/// What ancestors hand down.
+/// What a node inherits from its ancestors.
 #[derive(Clone, Copy)]
 pub(super) struct Place<'a> {
     pub(super) canvas_from_user: Affine,
-    /// Of folded groups. Below 1 everything further down is plain, see [`Walker::folds`].
+    /// Opacity of the groups around it that were folded. If it is below 1, everything inside can be
+    /// folded too, see [`Walker::folds`].
     pub(super) opacity: f32,
     /// Frames that evaluators need for the groups around it.
     pub(super) depth: u32,
-    /// What a filter around it does to colours.
+    /// The change that a filter around it makes to colours.
     pub(super) recolor: Option<Recolor>,
+    /// `id` of the nearest element that has one.
     pub(super) element: &'a str,
 }
 
@@ -75,7 +81,7 @@ impl<'a> Place<'a> {
         }
     }
 
-    /// Inside a group that takes so many frames; `None` when there are too many.
+    /// The place inside a group that takes `frames` more; `None` when there are too many.
     pub(super) fn deeper(self, frames: u32) -> Option<Self> {
         let depth = self.depth.saturating_add(frames);
         (depth <= MAX_DEPTH).then_some(Self { depth, ..self })
@@ -83,7 +89,7 @@ impl<'a> Place<'a> {
 }
 
 impl<'a> Walker<'a, '_> {
-    /// Whether a shape is left out because of its reach; warns.
+    /// Whether a shape reaches so far that it must be left out. Warns about it.
     pub(super) fn is_too_far(&self, outline: &BezPath, element: &str) -> bool {
         let bounds = outline.control_box();
         let reach = MAX_REACH * self.quality.canvas_longer_side;
@@ -97,19 +103,19 @@ impl<'a> Walker<'a, '_> {
         left_out
     }
 
-    /// Number that the next item gets.
+    /// Index of the next item.
     pub(super) fn next_item(&self) -> u32 {
         u32::try_from(self.steps.len()).unwrap_or(u32::MAX)
     }
 
-    /// Adds an item, which shows nothing by itself.
+    /// Adds an item that no node refers to yet, and returns its index.
     pub(super) fn add(&mut self, step: Step<'a>) -> u32 {
         let item = self.next_item();
         self.steps.push(step);
         item
     }
 
-    /// Adds an item that is painted here.
+    /// Adds an item that is painted at this place of the order.
     pub(super) fn show(&mut self, step: Step<'a>) {
         let item = self.add(step);
         self.nodes.push(tree::Node::Item(item));
@@ -138,7 +144,7 @@ impl<'a> Walker<'a, '_> {
             && bounds.y1 > self.window.y0
     }
 
-    /// The nodes that `walk` adds, apart from those of the group it happens in.
+    /// The nodes that `walk` adds. They are not added to the group that is being walked.
     pub(super) fn collected(&mut self, walk: impl FnOnce(&mut Self)) -> Vec<tree::Node> {
         let outer = std::mem::take(&mut self.nodes);
         walk(self);
@@ -146,8 +152,8 @@ impl<'a> Walker<'a, '_> {
     }
 }
 
-/// The id of a node, or of the one that it stands for: usvg puts groups around what has effects and
-/// leaves the id inside.
+/// The `id` of a node, or of the only node inside it: usvg wraps an element with effects in a group
+/// without an id.
 fn own_id(node: &Node) -> Option<&str> {
     let inner = match node {
         Node::Group(group) => match group.children() {
@@ -159,7 +165,7 @@ fn own_id(node: &Node) -> Option<&str> {
     inner.or_else(|| Some(node.id()).filter(|id| !id.is_empty()))
 }
 
-/// What a node may touch. usvg's `abs_*` boxes are not used: they are wrong inside the groups it
+/// Box of what a node may paint. usvg's `abs_*` boxes would be wrong inside the groups that it
 /// makes for colour glyphs.
 fn layer_bounds(node: &Node, canvas_from_parent: Affine) -> Rect {
     match node {

@@ -16,10 +16,10 @@ fn distances_agree_with_the_outline() {
     let mut random = Random(3);
     let (mut tested, mut worst) = (0, 0.0_f64);
     while tested < 20_000 {
-        let segment = baked.lowered.segments[random.below(baked.lowered.segments.len())];
-        let t = random.next();
-        let spread = 10.0_f64.powf(random.next() * 4.0);
-        let offset = kurbo::Vec2::new(random.next() - 0.5, random.next() - 0.5) * spread;
+        let segment = baked.lowered.segments[random.index(baked.lowered.segments.len())];
+        let t = random.unit();
+        let spread = 10.0_f64.powf(random.unit() * 4.0);
+        let offset = kurbo::Vec2::new(random.unit() - 0.5, random.unit() - 0.5) * spread;
         let Some(lookup) = baked.lookup(segment.blossom(t, t) + offset) else {
             continue;
         };

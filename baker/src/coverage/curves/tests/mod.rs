@@ -15,7 +15,11 @@ use super::{
     record::encode_record,
     sweep::{CutParams, cut_to_cells},
 };
-use crate::drawing::FillRule;
+use crate::{
+    drawing::FillRule,
+    oracle::crossing,
+    testing::{Random, closed},
+};
 
 /// How far from an edge a lookup may be wrong: the tolerance of lowering and of flattening, a
 /// rounded end and a rounded cut, each by half a unit along both axes.
@@ -39,7 +43,7 @@ fn params(size: u32, margin: f32) -> CutParams {
     }
 }
 
-/// `outline` is in cells.
+/// Cuts an outline whose unit is a cell.
 fn bake(outline: &BezPath, rule: FillRule, params: CutParams) -> Baked {
     let scaled = kurbo::Affine::scale(params.lattice.units_per_cell.into()) * outline.clone();
     let lowered = LoweredOutline::new(&scaled, TOLERANCE).expect("in range");
@@ -123,26 +127,7 @@ fn fills(winding: i32, rule: FillRule) -> bool {
 
 /// Winding of the lowered outline, every segment, in f64.
 fn true_winding(segments: &[Segment], p: Point) -> i32 {
-    segments
-        .iter()
-        .filter(|s| s.start.y <= p.y && p.y < s.end.y)
-        .filter(|s| p.x >= s.x_max() || (p.x >= s.x_min() && p.x >= x_at(s, p.y)))
-        .map(|s| s.direction)
-        .sum()
-}
-
-/// By bisection: nothing to share with what it checks.
-fn x_at(segment: &Segment, y: f64) -> f64 {
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if segment.blossom(middle, middle).y <= y {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    segment.blossom(low, low).x
+    segments.iter().map(|segment| crossing(segment, p)).sum()
 }
 
 /// The parts of an outline along which both coordinates are monotone, with their ends.
@@ -199,47 +184,6 @@ fn edge_distance(outline: &BezPath, p: Point) -> f64 {
         .sqrt()
 }
 
-/// Kurbo leaves open contours open.
-fn closed(outline: &BezPath) -> BezPath {
-    let mut closed = BezPath::new();
-    for element in outline.elements() {
-        if matches!(element, kurbo::PathEl::MoveTo(_)) && !closed.elements().is_empty() {
-            closed.close_path();
-        }
-        closed.push(*element);
-    }
-    if !closed.elements().is_empty() {
-        closed.close_path();
-    }
-    closed
-}
-
-/// A small deterministic generator (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        f64::from_bits((z ^ (z >> 31)) >> 12 | 0x3ff0_0000_0000_0000) - 1.0
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        to_index(self.next() * f64::from(u32::try_from(n).expect("small")))
-    }
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "small and not negative"
-)]
-fn to_index(x: f64) -> usize {
-    x as usize
-}
-
 /// Mismatches of a comparison.
 #[derive(Clone, Copy, Debug, Default)]
 struct Mismatches {
@@ -265,23 +209,23 @@ fn compare(outline: &BezPath, baked: &Baked, samples: u32, seed: u64) -> Mismatc
     let segments = &baked.lowered.segments;
     let mut found = Mismatches::default();
     while found.samples < samples {
-        let mut at = Point::new(random.next() * side, random.next() * side);
-        if !segments.is_empty() && random.next() < 0.5 {
-            let segment = segments[random.below(segments.len())];
-            let t = random.next();
+        let mut at = Point::new(random.unit() * side, random.unit() * side);
+        if !segments.is_empty() && random.unit() < 0.5 {
+            let segment = segments[random.index(segments.len())];
+            let t = random.unit();
             let on = segment.blossom(t, t);
-            let spread = 10.0_f64.powf(random.next() * 5.0);
-            match random.below(4) {
+            let spread = 10.0_f64.powf(random.unit() * 5.0);
+            match random.index(4) {
                 0 => at.y = segment.start.y,
                 1 => at.x = segment.start.x,
                 _ => {
-                    at = on + kurbo::Vec2::new(random.next() - 0.5, random.next() - 0.5) * spread;
+                    at = on + kurbo::Vec2::new(random.unit() - 0.5, random.unit() - 0.5) * spread;
                 }
             }
         }
         let Some(lookup) = baked.lookup(at) else {
             // Outlines may lie beyond the grid.
-            found.samples += u32::from(random.next() < 0.5);
+            found.samples += u32::from(random.unit() < 0.5);
             continue;
         };
         found.samples += 1;

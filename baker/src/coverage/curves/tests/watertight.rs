@@ -1,8 +1,8 @@
-//! Shapes that abut, cells that abut, and outlines nobody chose.
+//! Abutting shapes, abutting cells, and random outlines.
 
 use super::*;
 
-/// The same curved edge run both ways: every lookup between the outer edges hits exactly one.
+/// Two shapes share a curved edge: every lookup between the outer edges is in exactly one of them.
 #[test]
 fn abutting_shapes_leak_nothing() {
     let left = "M.5,.5H3.1C7.3,2.2 -.9,5.1 5.2,7.4H.5Z";
@@ -20,12 +20,12 @@ fn abutting_shapes_leak_nothing() {
         .collect();
     let mut random = Random(11);
     for i in 0..300_000 {
-        let mut at = Point::new(0.6 + 6.8 * random.next(), 0.6 + 6.7 * random.next());
+        let mut at = Point::new(0.6 + 6.8 * random.unit(), 0.6 + 6.7 * random.unit());
         at = (at.to_vec2() * units).to_point();
         if i % 2 == 0 {
-            let t = random.next();
-            let on = edge[random.below(edge.len())].blossom(t, t);
-            at = on + kurbo::Vec2::new(random.next() - 0.5, random.next() - 0.5) * 4.0;
+            let t = random.unit();
+            let on = edge[random.index(edge.len())].blossom(t, t);
+            at = on + kurbo::Vec2::new(random.unit() - 0.5, random.unit() - 0.5) * 4.0;
         }
         let Some(lookup) = left.lookup(at) else {
             continue;
@@ -38,8 +38,8 @@ fn abutting_shapes_leak_nothing() {
     }
 }
 
-/// A point on the border of two cells gets the same answer from both, but for what rounding of
-/// cuts may move.
+/// A point on the border of two cells gets the same answer from both, except where rounding of cuts
+/// decides.
 #[test]
 fn neighbouring_cells_agree_along_their_border() {
     let path = "M4.03,.31C9,4 -1,5 6.7,7.6L1.2,3.3 7.4,4.9 .4,6.8Z";
@@ -56,10 +56,10 @@ fn neighbouring_cells_agree_along_their_border() {
     let mut random = Random(5);
     let mut disagreed = 0;
     for _ in 0..100_000 {
-        let border = 1 + random.below(7);
+        let border = 1 + random.index(7);
         let border_units = f64::from(u32::try_from(border).expect("small")) * units;
-        let along = random.next() * 8.0 * units;
-        let upright = random.next() < 0.5;
+        let along = random.unit() * 8.0 * units;
+        let upright = random.unit() < 0.5;
         let at = if upright {
             Point::new(border_units, along)
         } else {

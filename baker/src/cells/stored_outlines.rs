@@ -29,8 +29,8 @@ pub(crate) fn stored_curves(
     (curve_lattice, sources)
 }
 
-/// The sources of `records`, whose outlines are items; `None` where an outline is not to be had,
-/// so that the file holds the records themselves.
+/// The outlines that `records` are cut from, which name items so far; `None` when one of them
+/// cannot be stored, so that the file must hold the records themselves.
 fn sources(
     covers: &[Cover],
     records: &[SourceRecord],
@@ -45,6 +45,7 @@ fn sources(
     shown.dedup();
     let outline = |item: &u32| covers.get(*item as usize)?.source.clone();
     let outlines = shown.iter().map(outline).collect::<Option<Vec<_>>>()?;
+    // From the number of the item to the number of the stored outline.
     let index = |item: u32| u32::try_from(shown.binary_search(&item).ok()?).ok();
     let renumbered = |record: &SourceRecord| {
         let outlines = record.outlines.iter().map(|&item| index(item));

@@ -1,4 +1,4 @@
-//! Lowered outlines as the file stores them.
+//! Lowered outlines as the file stores them, section `OUTL`.
 
 use kurbo::Point;
 use vtex_format::{SourceOutline, SourceSegment};
@@ -6,9 +6,9 @@ use vtex_format::{SourceOutline, SourceSegment};
 use super::lower::{LoweredOutline, Segment};
 use crate::drawing::FillRule;
 
-/// A lowered outline as stored; `None` when it reaches further than the format's integers, or is
-/// empty.
-pub(crate) fn source_outline(lowered: &LoweredOutline, rule: FillRule) -> Option<SourceOutline> {
+/// The outline as stored; `None` when it is empty or a coordinate does not fit the format's 32
+/// bits.
+pub(crate) fn stored_outline(lowered: &LoweredOutline, rule: FillRule) -> Option<SourceOutline> {
     let segments: Option<Vec<SourceSegment>> = lowered.segments.iter().map(segment).collect();
     Some(SourceOutline {
         even_odd: rule == FillRule::EvenOdd,
@@ -22,6 +22,7 @@ fn segment(segment: &Segment) -> Option<SourceSegment> {
         Some(control) => Some(lattice_point(control)?),
         None => None,
     };
+    // The file stores segments along the outline; lowered ones run from top to bottom.
     let (from, to) = if segment.direction > 0 {
         (start?, end?)
     } else {

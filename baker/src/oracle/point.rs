@@ -1,8 +1,9 @@
-//! The brute-force painter: what a lookup must return, from the outlines and nothing else.
+//! Lookups at a point: every outline is tested, and the items that contain the point are
+//! composited.
 //!
-//! It shares with curve cells what they store - monotone lines and quadratics between lattice
-//! points, see [`LoweredOutline`] - and none of what they do with it: no cells, no cuts, no steps,
-//! no layers, no f32.
+//! It shares with curve records what they are made from: monotone lines and quadratics between
+//! points of the curve lattice ([`LoweredOutline`]). It shares nothing of what is done with them:
+//! it has no cells, no cuts, no steps, no layers and no f32.
 
 use kurbo::{Affine, Point};
 use vtex_format::{COVERAGE_CURVES, VtexFile};
@@ -25,40 +26,39 @@ use crate::{
     number::floor_index,
 };
 
-/// Bands of heights that segments are sorted into.
+/// Bands of height that segments are sorted into.
 const ROWS: usize = 4096;
-/// Places along a segment in each round of the search for its nearest point.
+/// Places along a segment that each round of the search for its nearest point tries.
 const PLACES: u32 = 64;
 
-/// Paints one point at a time from the outlines of a drawing; slow, and meant for verification.
+/// Answers lookups at points from the outlines of a drawing. Slow.
 #[derive(Debug)]
-pub struct Painter {
+pub struct Oracle {
     units_per_uv: [f64; 2],
     offset_units: [f64; 2],
     tree: Tree,
     /// Front to back.
     shapes: Vec<Painted>,
-    /// All shapes' segments, shape by shape from the front.
+    /// The segments of all shapes, shape by shape from the front.
     segments: Vec<Segment>,
-    /// For each band, from the top: indices of `segments` that reach into it, ascending.
+    /// For each band, from the top, the indices of the segments that reach into it, ascending.
     rows: Vec<Vec<u32>>,
     rows_per_unit: f64,
 }
 
 #[derive(Debug)]
 struct Painted {
-    /// `None` of an outline that others are clipped to.
+    /// `None` for a clip outline.
     paint: Option<Paint>,
     rule: FillRule,
-    /// One behind its last segment.
+    /// One past its last segment.
     end: u32,
 }
 
-impl Painter {
-    /// Draws `svg` as [`crate::bake`] does and lowers every outline to the lattice of `file`, which
-    /// was baked from it with `config`.
+impl Oracle {
+    /// The oracle of `svg`, on the curve lattice of `file`, which was baked from it with `config`.
     ///
-    /// `None` when the file holds more than shapes that are curves.
+    /// `None` when the file holds anything but curves.
     ///
     /// # Errors
     /// As [`crate::bake`].
@@ -79,7 +79,7 @@ impl Painter {
         let canvas = steps.canvas.scale_from_origin(units_per_step);
         let rows = f64::from(file.meta.grid.size_cells[1] * lattice.units_per_cell);
         let canvas_longer = drawing.longer_side();
-        let mut painter = Self {
+        let mut oracle = Self {
             units_per_uv: [canvas.width(), canvas.height()],
             offset_units: [canvas.x0, canvas.y0],
             tree: drawing.tree,
@@ -99,10 +99,10 @@ impl Painter {
             let Ok(lowered) = LoweredOutline::new(&outline, tolerance) else {
                 return Ok(None);
             };
-            painter.push(lowered, rule, paint.cloned());
+            oracle.push(lowered, rule, paint.cloned());
         }
-        painter.sort_into_rows();
-        Ok(Some(painter))
+        oracle.sort_into_rows();
+        Ok(Some(oracle))
     }
 
     fn push(&mut self, lowered: LoweredOutline, rule: FillRule, paint: Option<Paint>) {
@@ -133,8 +133,8 @@ impl Painter {
         Point::new(x, y)
     }
 
-    /// The uv of a random end of a segment, of the one drawn by `lot`: where cuts and comparisons
-    /// meet. `None` when nothing is drawn.
+    /// The uv of the upper end of a segment: a place where cuts and comparisons meet. `lot` is any
+    /// number; it chooses the segment. `None` when there are no segments.
     pub fn corner(&self, lot: u64) -> Option<[f64; 2]> {
         let count = self.segments.len() as u64;
         let index = usize::try_from(lot % count.max(1)).ok()?;
@@ -143,9 +143,11 @@ impl Painter {
         Some([axis(0, corner.x), axis(1, corner.y)])
     }
 
-    /// What a point lookup at `uv`, in \[0, 1\]^2, returns: linear light, premultiplied.
+    /// What a point lookup must return at `uv`, which is in \[0, 1\]^2: linear light,
+    /// premultiplied.
     pub fn color(&self, uv: [f32; 2]) -> [f32; 4] {
         let mut items = self.covering(uv);
+        // The tree is painted back to front.
         items.reverse();
         let covering = Covering {
             items: &items,
@@ -154,7 +156,7 @@ impl Painter {
         linear(covering.paint(&self.tree.roots, [0.0; 4]))
     }
 
-    /// The items that `uv` lies in, front to back, as far as they can show.
+    /// The items that contain `uv`, front to back. Without groups it stops at the first opaque one.
     fn covering(&self, uv: [f32; 2]) -> Vec<u32> {
         let p = self.point(uv);
         let plain = self
@@ -162,10 +164,11 @@ impl Painter {
             .roots
             .iter()
             .all(|node| matches!(node, Node::Item(_)));
+        // Segments of the row come shape by shape from the front, as `segments` are sorted.
         let mut row = self.rows[self.row_of(p.y)].iter().copied().peekable();
         let mut first = 0;
         let mut items = Vec::new();
-        // What no segment of the row belongs to is not there.
+        // A shape without a segment in the row does not contain the point.
         while let Some(&next) = row.peek() {
             let index = first + self.shapes[first..].partition_point(|shape| shape.end <= next);
             let Some(shape) = self.shapes.get(index) else {
@@ -194,8 +197,8 @@ impl Painter {
         paint.map_or([0.0; 4], |paint| color_at(paint, uv))
     }
 
-    /// Distance from `uv` to the nearest outline of any shape, in units of the file's curve
-    /// lattice; infinite beyond `reach_units`.
+    /// Distance from `uv` to the nearest outline, in units of the curve lattice; infinite if it is
+    /// more than `reach_units`.
     pub fn edge_distance_units(&self, uv: [f32; 2], reach_units: f64) -> f64 {
         let p = self.point(uv);
         let rows = self.row_of(p.y - reach_units)..=self.row_of(p.y + reach_units);
@@ -217,8 +220,9 @@ impl Painter {
     }
 }
 
-/// What `segment` adds to the winding at `p`: it counts where it is met to the left of `p`.
-fn crossing(segment: &Segment, p: Point) -> i32 {
+/// What `segment` adds to the winding at `p`: its direction, if it crosses the height of `p` to the
+/// left of it. Half open, as the format says.
+pub(crate) fn crossing(segment: &Segment, p: Point) -> i32 {
     let crosses = segment.start.y <= p.y && p.y < segment.end.y;
     if !crosses || p.x < segment.x_min() {
         return 0;
@@ -227,7 +231,7 @@ fn crossing(segment: &Segment, p: Point) -> i32 {
     if met { segment.direction } else { 0 }
 }
 
-/// Where the segment is at height `y`, by halving: y grows along it.
+/// The x of the segment at height `y`, by bisection: y grows along it.
 fn x_at(segment: &Segment, y: f64) -> f64 {
     let (mut low, mut high) = (0.0_f64, 1.0_f64);
     for _ in 0..60 {
@@ -244,7 +248,7 @@ fn x_at(segment: &Segment, y: f64) -> f64 {
 fn distance(segment: &Segment, p: Point) -> f64 {
     let (mut from, mut to) = (0.0, 1.0);
     let mut best = (f64::INFINITY, 0.0);
-    // Each round looks about the best place of the one before, 32 times as closely.
+    // Each round searches around the best place of the round before, 32 times as closely.
     for _ in 0..5 {
         let step = (to - from) / f64::from(PLACES);
         for place in 0..=PLACES {
@@ -282,24 +286,24 @@ fn linear(premultiplied: [f64; 4]) -> [f32; 4] {
 mod tests {
     use super::*;
 
-    fn painter(svg: &str) -> Painter {
+    fn oracle(svg: &str) -> Oracle {
         let (config, resources) = (BakeConfig::default(), Resources::default());
         let file = crate::bake(svg.as_bytes(), &config, &resources).unwrap();
-        let painter = Painter::new(svg.as_bytes(), &config, &resources, &file);
-        painter.unwrap().unwrap()
+        let oracle = Oracle::new(svg.as_bytes(), &config, &resources, &file);
+        oracle.unwrap().unwrap()
     }
 
     #[test]
     fn what_is_in_front_shows() {
-        let painter = painter(
+        let oracle = oracle(
             "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 10 10'>\
              <path d='M2 2H8V8H2z' fill='#f00'/><circle cx='5' cy='5' r='1' fill='#00f'/>\
              <path d='M6 2H8V8H6z' fill='#fff' fill-opacity='.5'/></svg>",
         );
-        assert_eq!(painter.color([0.1, 0.5]), [0.0; 4]);
-        assert_eq!(painter.color([0.3, 0.5]), [1.0, 0.0, 0.0, 1.0]);
-        assert_eq!(painter.color([0.5, 0.5]), [0.0, 0.0, 1.0, 1.0]);
-        let [r, g, b, a] = painter.color([0.7, 0.5]);
+        assert_eq!(oracle.color([0.1, 0.5]), [0.0; 4]);
+        assert_eq!(oracle.color([0.3, 0.5]), [1.0, 0.0, 0.0, 1.0]);
+        assert_eq!(oracle.color([0.5, 0.5]), [0.0, 0.0, 1.0, 1.0]);
+        let [r, g, b, a] = oracle.color([0.7, 0.5]);
         let half = decode([0.5; 3])[0];
         assert!(
             (g - half).abs() < 1e-6 && (b - half).abs() < 1e-6,
@@ -310,18 +314,18 @@ mod tests {
 
     #[test]
     fn distances_are_in_units_of_the_lattice() {
-        let painter = painter(
+        let oracle = oracle(
             "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 10 10'>\
              <circle cx='5' cy='5' r='3'/></svg>",
         );
-        let step = 1.0 / painter.units_per_uv[0];
+        let step = 1.0 / oracle.units_per_uv[0];
         for (off, expected) in [(3.0, 3.0), (-3.0, 3.0), (0.0, 0.0)] {
             let x = 0.8 + off * step;
             #[expect(clippy::cast_possible_truncation, reason = "lookups take f32")]
-            let found = painter.edge_distance_units([x as f32, 0.5], 20.0);
+            let found = oracle.edge_distance_units([x as f32, 0.5], 20.0);
             // The lattice, lowering and f32 of the lookup: a unit or two.
             assert!((found - expected).abs() < 2.0, "{off}: {found}");
         }
-        assert!(painter.edge_distance_units([0.5, 0.5], 20.0).is_infinite());
+        assert!(oracle.edge_distance_units([0.5, 0.5], 20.0).is_infinite());
     }
 }

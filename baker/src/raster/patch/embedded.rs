@@ -1,4 +1,7 @@
-//! Embedded raster images that keep their own texels.
+//! Embedded images: they keep their own texels instead of being painted into a patch.
+//!
+//! resvg interpolates between texels by cubics or takes the nearest; lookups interpolate linearly.
+//! So a small image is first enlarged by resvg, and the texels of the result are stored.
 
 use kurbo::{Affine, Rect};
 use tiny_skia::Pixmap;
@@ -17,33 +20,33 @@ use crate::{
     svg::{Step, Subtree},
 };
 
-/// Texels of all images of a file that keep theirs: 32 MiB with their mips. Those beyond are
-/// patches like any other.
+/// Texels of all embedded images of a file together: 32 MiB with their mips. Images beyond it
+/// become patches.
 const MAX_TEXELS: u64 = 6_291_456;
-/// Texels that an image is enlarged to by resvg: between texels lookups are bilinear, resvg is
-/// bicubic, or takes the nearest.
+/// Texels that an image may be enlarged to.
 const MAX_ENLARGED_TEXELS: u64 = 1 << 20;
-/// Most texels along each axis for one of an image that is smoothed.
+/// Largest enlargement along each axis of an image that is smoothed.
 const MAX_SMOOTH: u32 = 8;
-/// And of one that is not: the blur left between its texels is a 16th of one wide.
+/// Largest enlargement of an image that is not smoothed. The blur that linear lookups leave between
+/// its texels is then a 16th of a texel wide.
 const MAX_SHARP: u32 = 16;
-/// Share of a scale below which a turn is none.
+/// How far from upright an image may be, as a share of its scale.
 const UPRIGHT: f64 = 1e-6;
 
-/// The texels of an image as it is stored in the SVG.
+/// An image that keeps its own texels.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Native {
-    /// Texels of the image.
+pub(super) struct Embedded {
+    /// Its texels in the SVG.
     size: [u32; 2],
-    /// Stored texels for each along both axes.
+    /// Stored texels for each of them, along both axes.
     enlarged: u32,
-    /// Whether it is mirrored along x, along y.
+    /// Whether it is mirrored along x, and along y.
     mirrored: [bool; 2],
 }
 
-impl Native {
-    /// `None` for what is no image of texels, and for an image that is turned: the rectangles of a
-    /// file's images are upright.
+impl Embedded {
+    /// `None` for a subtree that is no raster image, and for an image that is rotated or skewed:
+    /// the file's images are upright rectangles.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -73,6 +76,7 @@ impl Native {
             | ImageRendering::Smooth
             | ImageRendering::HighQuality => MAX_SMOOTH,
         };
+        // A small image may be enlarged a lot, one of a million texels not at all.
         let enlarged = (MAX_ENLARGED_TEXELS / texels)
             .isqrt()
             .clamp(1, u64::from(most));
@@ -99,7 +103,7 @@ impl Native {
         width * height
     }
 
-    /// The image at its place; `None` when it could not be painted.
+    /// The image at its place on the canvas; `None` when resvg could not paint it.
     pub(super) fn patch(self, subtree: &Subtree<'_>, canvas_size: [f64; 2]) -> Option<Patch> {
         let size = self.stored_size();
         let mut pixmap = Pixmap::new(size[0], size[1])?;
@@ -110,8 +114,10 @@ impl Native {
             size,
             texels: texels.iter().map(|&t| texel::linear_from_skia(t)).collect(),
         };
+        // resvg has painted it upright; the rectangle of an image cannot be mirrored, so its texels
+        // are.
         level0.mirror(self.mirrored);
-        // What the cubic adds may be nothing.
+        // The enlargement may have added nothing that linear lookups do not show.
         if self.enlarged > 1 {
             level0 = detail::fitted(level0);
         }
@@ -134,31 +140,33 @@ impl Native {
     }
 }
 
-/// For each step its own texels, where it is an image that keeps them.
-pub(super) fn choose(steps: &[Step<'_>]) -> Vec<Option<Native>> {
-    let native = |step: &Step<'_>| match step {
-        Step::Raster(subtree) => Native::of(subtree),
+/// For each step the embedded image, if it is one that keeps its texels.
+pub(super) fn choose(steps: &[Step<'_>]) -> Vec<Option<Embedded>> {
+    let image = |step: &Step<'_>| match step {
+        Step::Raster(subtree) => Embedded::of(subtree),
         Step::Shape(_) | Step::Clip(_) => None,
     };
-    let mut natives: Vec<Option<Native>> = steps.iter().map(native).collect();
-    share_out(natives.iter_mut());
-    natives
+    let mut embedded: Vec<Option<Embedded>> = steps.iter().map(image).collect();
+    share_out(embedded.iter_mut());
+    embedded
 }
 
-/// Enlarges all images of a drawing as far as there are texels for; the last ones are patches where
-/// there are too few for the images themselves.
-fn share_out<'a>(images: impl Iterator<Item = &'a mut Option<Native>>) {
-    let mut images: Vec<&mut Option<Native>> = images.filter(|image| image.is_some()).collect();
-    let total = |images: &[&mut Option<Native>], most: u32| -> u64 {
+/// Bounds the enlargement of all images so that they fit the budget together. If even the images as
+/// they are do not fit, the last ones become patches.
+fn share_out<'a>(images: impl Iterator<Item = &'a mut Option<Embedded>>) {
+    let mut images: Vec<&mut Option<Embedded>> = images.filter(|image| image.is_some()).collect();
+    let total = |images: &[&mut Option<Embedded>], most: u32| -> u64 {
         let images = images.iter().flat_map(|image| image.iter());
         images
             .map(|image| image.enlarged_at_most(most).texels())
             .sum()
     };
+    // First less enlargement for all.
     let mut most = MAX_SHARP;
     while most > 1 && total(&images, most) > MAX_TEXELS {
         most -= 1;
     }
+    // Then first come, first served, in document order.
     let mut left = MAX_TEXELS;
     for image in &mut images {
         let kept = image.map(|image| image.enlarged_at_most(most));
@@ -266,13 +274,13 @@ mod tests {
 
     #[test]
     fn images_share_a_budget() {
-        let native = super::Native {
+        let image = super::Embedded {
             size: [1000, 1000],
             enlarged: 2,
             mirrored: [false; 2],
         };
         let shared = |count: usize| {
-            let mut images = vec![Some(native); count];
+            let mut images = vec![Some(image); count];
             super::share_out(images.iter_mut());
             let enlarged = images.iter().map(|image| image.map(|image| image.enlarged));
             enlarged.collect::<Vec<_>>()
