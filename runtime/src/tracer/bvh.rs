@@ -145,7 +145,7 @@ mod tests {
 
     #[test]
     fn traversal_on_the_device_is_that_of_obvhs_to_the_bit() {
-        if std::env::var("VTEX_GPU").is_ok_and(|value| value == "off") {
+        if !vtex_testing::gpu("traversal on the device") {
             return;
         }
         let gpu = Gpu::headless().expect("an adapter; VTEX_GPU=off skips this test");

@@ -5,15 +5,15 @@ use std::sync::Arc;
 
 use vtex_baker::{BakeConfig, Resources, bake};
 use vtex_format::{Limits, VtexFile, validate};
-use vtex_runtime::BatchQuery;
-use vtex_shaders::cpu;
-use vtex_tests::{fonts, gpu};
+use vtex_runtime::Gpu;
+use vtex_tests::fonts;
 use vtex_truth::comparison::EdgeFinder;
 use vtex_truth::picture::{Picture, Shot, View, difference, difference_picture, fit_size};
 use vtex_truth::reference::{Edges, Reference, SUPERSAMPLES};
-use vtex_truth::texture::{FilterMode, Shooter, canvas_options};
+use vtex_truth::texture::FilterMode;
 
-use crate::lookups::{self, same};
+use crate::eyes::{Eyes, queries};
+use crate::lookups;
 use crate::table::Fonts;
 
 /// Pixels of the pictures' longer side.
@@ -25,8 +25,6 @@ const SPP: u32 = 64;
 const FILTER_SAMPLES: u32 = 6;
 /// The zooms that are compared.
 pub(crate) const ZOOMS: [f64; 2] = [1.0, 8.0];
-/// Largest difference of a channel, linear light, that counts as equal.
-const SAME: f32 = 2.0 / 255.0;
 
 /// What a case came to.
 pub(crate) struct Found {
@@ -88,8 +86,8 @@ impl Seen {
     }
 }
 
-/// Bakes a drawing and looks at it; an error where it does not bake.
-pub(crate) fn look(svg: &[u8], fonts: Fonts) -> Result<Found, String> {
+/// Bakes a drawing and looks at it, also on `gpu`; an error where it does not bake.
+pub(crate) fn look(svg: &[u8], fonts: Fonts, gpu: Option<&Gpu>) -> Result<Found, String> {
     let fonts = match fonts {
         Fonts::Library => fonts::library(),
         Fonts::None => Arc::default(),
@@ -110,17 +108,17 @@ pub(crate) fn look(svg: &[u8], fonts: Fonts) -> Result<Found, String> {
     let whole = truth(View::WHOLE);
     let finder = EdgeFinder::new(&reference, whole.clone());
     let close = finder.window(ZOOMS[1], 0).unwrap();
-    let eyes = Eyes::new(&file);
-    let mips = eyes.mips(size_px);
+    let eyes = Eyes::new(gpu, &file, FilterMode::Point);
+    let mips = mips(&eyes, size_px);
     Ok(Found {
         invalid: invalid(&file, &bytes),
         mips_db: difference(&whole, &mips).psnr_db,
         mips,
         views: [
-            eyes.see(ZOOMS[0], View::WHOLE, whole),
-            eyes.see(ZOOMS[1], close, truth(close)),
+            see(&eyes, ZOOMS[0], View::WHOLE, whole),
+            see(&eyes, ZOOMS[1], close, truth(close)),
         ],
-        strays: gpu::shared().and_then(|gpu| lookups::compare(gpu, &file).err()),
+        strays: gpu.and_then(|gpu| lookups::compare(gpu, &file, &eyes).err()),
         file,
     })
 }
@@ -138,75 +136,42 @@ fn invalid(file: &VtexFile, bytes: &[u8]) -> Option<String> {
     }
 }
 
-/// Both evaluators with one texture.
-struct Eyes {
-    words: Vec<u32>,
-    gpu: Option<Shooter>,
-}
-
-impl Eyes {
-    fn new(file: &VtexFile) -> Self {
-        let pack = canvas_options(FilterMode::Point);
-        let shooter = |gpu| Shooter::on_gpu(gpu, file, pack).unwrap();
-        Self {
-            words: vtex_shaders::pack(file, &pack),
-            gpu: gpu::shared().map(shooter),
-        }
-    }
-
-    /// The whole canvas with footprints: at this size they are a texel of mip 0.
-    fn mips(&self, size_px: [u32; 2]) -> Picture {
-        let shot = Shot {
-            view: View::WHOLE,
-            size_px,
-            spp: SPP,
-        };
-        let sampler = cpu::Sampler::new(&self.words);
-        shot.shoot(|uv, footprint| sampler.sample(uv, footprint))
-    }
-
-    fn see(&self, zoom: f64, view: View, truth: Picture) -> Seen {
-        let shot = Shot {
-            view,
-            size_px: truth.size_px,
-            spp: SPP,
-        };
-        let queries = points(shot);
-        let sampler = cpu::Sampler::new(&self.words);
-        let look = |query: &BatchQuery| sampler.sample(query.uv, query.footprint);
-        let colors: Vec<[f32; 4]> = queries.iter().map(look).collect();
-        let twin = picture(shot, &colors);
-        let mut seen = Seen {
-            zoom,
-            psnr_db: vec![difference(&truth, &twin).psnr_db],
-            truth,
-            twin,
-            lookups: queries.len(),
-            apart: 0,
-        };
-        if let Some(Shooter::Gpu { sampler }) = &self.gpu {
-            let answers = sampler.sample(&queries).unwrap();
-            let pairs = colors.iter().zip(&answers);
-            seen.apart = pairs.filter(|(a, b)| !same(a, b, SAME)).count();
-            let theirs = picture(shot, &answers);
-            seen.psnr_db.push(difference(&seen.truth, &theirs).psnr_db);
-        }
-        seen
-    }
-}
-
-/// The lookups of a shot as points: cells answer them at every zoom, mips none.
-fn points(shot: Shot) -> Vec<BatchQuery> {
-    let [width, height] = shot.size_px;
-    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
-    let point = |query| BatchQuery {
-        footprint: [0.0; 4],
-        ..query
+/// The whole canvas from footprints: at this size they are a texel of mip 0. On the twin alone: the
+/// random lookups compare it with the GPU.
+fn mips(eyes: &Eyes, size_px: [u32; 2]) -> Picture {
+    let shot = Shot {
+        view: View::WHOLE,
+        size_px,
+        spp: SPP,
     };
-    pixels
-        .flat_map(|[x, y]| shot.queries(x, y))
-        .map(point)
-        .collect()
+    picture(shot, &eyes.look_up_twin(&queries(shot)))
+}
+
+/// A view from points: cells answer them at every zoom, mips never.
+fn see(eyes: &Eyes, zoom: f64, view: View, truth: Picture) -> Seen {
+    let shot = Shot {
+        view,
+        size_px: truth.size_px,
+        spp: SPP,
+    };
+    let mut queries = queries(shot);
+    for query in &mut queries {
+        query.footprint = [0.0; 4];
+    }
+    let answers = eyes.look_up(&queries);
+    let twin = picture(shot, &answers.twin);
+    let mut psnr_db = vec![difference(&truth, &twin).psnr_db];
+    if let Some(colors) = &answers.gpu {
+        psnr_db.push(difference(&truth, &picture(shot, colors)).psnr_db);
+    }
+    Seen {
+        zoom,
+        truth,
+        twin,
+        psnr_db,
+        lookups: queries.len(),
+        apart: answers.apart().len(),
+    }
 }
 
 /// The means of each pixel's colours.

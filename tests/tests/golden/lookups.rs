@@ -3,57 +3,45 @@
 
 use vtex_format::VtexFile;
 use vtex_runtime::{BatchQuery, Gpu};
-use vtex_shaders::cpu;
 use vtex_truth::picture::hash;
-use vtex_truth::texture::{FilterMode, Shooter, canvas_options};
+use vtex_truth::texture::FilterMode;
+
+use crate::eyes::Eyes;
 
 /// Lookups compared between GPU and twin in each filter mode.
 const COUNT: u32 = 20_000;
-/// Largest difference of a channel, linear light, that counts as equal.
-const SAME: f32 = 2.0 / 255.0;
 /// Lookups of point mode that may differ more: points on an edge to the last bit of an f32.
 const POINT_FLIPS: usize = 2;
 
-/// An error where the batch kernel and the twin disagree.
-pub(crate) fn compare(gpu: &Gpu, file: &VtexFile) -> Result<(), String> {
+/// An error where the batch kernel and the twin disagree; `point` is the file packed for
+/// [`FilterMode::Point`].
+pub(crate) fn compare(gpu: &Gpu, file: &VtexFile, point: &Eyes) -> Result<(), String> {
     let queries: Vec<BatchQuery> = (0..COUNT).map(query).collect();
-    for filter in [FilterMode::Point, FilterMode::Footprint, FilterMode::Paper] {
-        let pack = canvas_options(filter);
-        let shooter = Shooter::on_gpu(gpu, file, pack).map_err(|error| error.to_string())?;
-        let Shooter::Gpu { sampler } = shooter else {
-            return Err("no batch sampler".to_owned());
-        };
-        let words = vtex_shaders::pack(file, &pack);
-        let twin = cpu::Sampler::new(&words);
-        let colors = sampler
-            .sample(&queries)
-            .map_err(|error| error.to_string())?;
-        let expected = queries
-            .iter()
-            .map(|query| twin.sample(query.uv, query.footprint));
-        let wrong: Vec<_> = queries
-            .iter()
-            .zip(colors.iter().zip(expected))
-            .filter(|(_, (color, expected))| !same(color, expected, SAME))
-            .collect();
-        let allowed = match filter {
-            FilterMode::Point => POINT_FLIPS,
-            _ => 0,
-        };
-        if let Some((query, (color, expected))) = wrong.first().filter(|_| wrong.len() > allowed) {
-            let count = wrong.len();
-            return Err(format!(
-                "{filter:?}: {count} of {COUNT} random lookups differ; \
-                 {query:?}: GPU {color:?}, twin {expected:?}"
-            ));
-        }
+    compare_in(FilterMode::Point, point, &queries, POINT_FLIPS)?;
+    for filter in [FilterMode::Footprint, FilterMode::Paper] {
+        compare_in(filter, &Eyes::new(Some(gpu), file, filter), &queries, 0)?;
     }
     Ok(())
 }
 
-/// Never for what is no number.
-pub(crate) fn same(a: &[f32; 4], b: &[f32; 4], tolerance: f32) -> bool {
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tolerance)
+fn compare_in(
+    filter: FilterMode,
+    eyes: &Eyes,
+    queries: &[BatchQuery],
+    allowed: usize,
+) -> Result<(), String> {
+    let answers = eyes.look_up(queries);
+    let apart = answers.apart();
+    match (apart.first(), &answers.gpu) {
+        (Some(&first), Some(gpu)) if apart.len() > allowed => Err(format!(
+            "{filter:?}: {} of {COUNT} random lookups differ; {:?}: GPU {:?}, twin {:?}",
+            apart.len(),
+            queries[first],
+            gpu[first],
+            answers.twin[first]
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Random lookup `index`: uv a little beyond the canvas, footprints from none to a tenth of it.

@@ -8,6 +8,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
+mod eyes;
 mod look;
 mod lookups;
 mod report;
@@ -19,6 +20,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use libtest_mimic::{Arguments, Failed, Trial};
+use vtex_tests::gpu;
 
 use crate::look::look;
 use crate::report::Report;
@@ -28,10 +30,14 @@ use crate::verdict::Verdict;
 fn main() -> ExitCode {
     let arguments = Arguments::from_args();
     let report = Arc::new(Report::default());
-    let trials = chapters(&root())
+    let mut trials: Vec<Trial> = chapters(&root())
         .iter()
         .flat_map(|folder| trials(folder, &report))
         .collect();
+    trials.push(Trial::test("table::rows_are_read_strictly", || {
+        table::rows_are_read_strictly();
+        Ok(())
+    }));
     let conclusion = libtest_mimic::run(&arguments, trials);
     report.finish(&root());
     conclusion.exit_code()
@@ -74,7 +80,9 @@ fn trials(folder: &Path, report: &Arc<Report>) -> Vec<Trial> {
 fn run(expected: &Expected, folder: &Path, report: &Report) -> Result<(), Failed> {
     let chapter = folder.file_name().unwrap().to_string_lossy();
     let svg = std::fs::read(folder.join(format!("{}.svg", expected.name)))?;
-    let found = look(&svg, expected.fonts);
+    let untested = format!("{chapter}::{} on the GPU", expected.name);
+    let gpu = vtex_testing::gpu(&untested).then(gpu::shared).flatten();
+    let found = look(&svg, expected.fonts, gpu);
     let verdict = Verdict::new(&chapter, expected, found.as_ref().map_err(String::as_str));
     let failed = !verdict.surprises.is_empty();
     let message = verdict.surprises.join("; ");

@@ -60,10 +60,32 @@ pub(crate) fn read(folder: &Path) -> Result<Vec<Expected>, String> {
     let mut named: Vec<String> = cases.iter().map(|case| case.name.clone()).collect();
     named.sort();
     let drawn = drawings(folder);
-    match named == drawn {
-        true => Ok(cases),
-        false => Err(format!("{place} names {named:?}, beside it lie {drawn:?}")),
+    if named != drawn {
+        return Err(format!("{place} names {named:?}, beside it lie {drawn:?}"));
     }
+    unique_titles(folder, &drawn)?;
+    Ok(cases)
+}
+
+/// An error where a drawing has no title, or that of another one of the chapter.
+fn unique_titles(folder: &Path, names: &[String]) -> Result<(), String> {
+    let mut titles: BTreeMap<String, &str> = BTreeMap::new();
+    for name in names {
+        let path = folder.join(format!("{name}.svg"));
+        let svg = std::fs::read_to_string(&path).map_err(|error| error.to_string())?;
+        let title = title(&svg).ok_or_else(|| format!("{} has no <title>", path.display()))?;
+        if let Some(other) = titles.insert(title.to_lowercase(), name) {
+            return Err(format!("{other} and {name} have the same title {title:?}"));
+        }
+    }
+    Ok(())
+}
+
+/// Text of the first title; `None` without one, or where it is empty.
+fn title(svg: &str) -> Option<&str> {
+    let (_, rest) = svg.split_once("<title>")?;
+    let (title, _) = rest.split_once("</title>")?;
+    Some(title.trim()).filter(|title| !title.is_empty())
 }
 
 /// Puts into the column `fails` what did fail, for the cases that `failed` names. A reason stays;
@@ -150,7 +172,10 @@ fn parse(line: &str) -> Result<Expected, &'static str> {
 fn bound(text: &str) -> Result<f64, &'static str> {
     match text {
         "-" => Ok(f64::NEG_INFINITY),
-        text => text.parse().map_err(|_| "no number of dB"),
+        text => match text.parse() {
+            Ok(db) if f64::is_finite(db) => Ok(db),
+            _ => Err("no number of dB"),
+        },
     }
 }
 
@@ -158,4 +183,35 @@ fn bound(text: &str) -> Result<f64, &'static str> {
 fn words(field: &str) -> Vec<String> {
     let words = field.split(' ').filter(|&word| word != "-");
     words.map(str::to_owned).collect()
+}
+
+/// A trial of its own: this suite has no `#[test]`.
+pub(crate) fn rows_are_read_strictly() {
+    let good = "blur\t35\t34.5\t40\tRasterPatch:filter\tyes\tgpu 8x\t-\tneeds a better blur";
+    let good = parse(good).unwrap();
+    assert_eq!(good.least_db, [35.0, 34.5, 40.0]);
+    assert_eq!(good.warnings, ["RasterPatch:filter"]);
+    assert!(good.patch && good.fails.len() == 2, "{good:?}");
+    let plain = parse("rect\t40\t38\t40\t-\tno\t-\tno-fonts\t-").unwrap();
+    let empty = plain.warnings.is_empty() && plain.fails.is_empty();
+    assert!(empty && plain.fonts == Fonts::None, "{plain:?}");
+    let blind = parse("deep\t40\t-\t40\t-\tno\t-\t-\tresvg leaves it out").unwrap();
+    assert_eq!(blind.least_db, [40.0, f64::NEG_INFINITY, 40.0]);
+    for bad in [
+        "deep\t40\t-\t40\t-\tno\t-\t-\t-",
+        "low\t40\t38\t39\t-\tno\t-\t-\t-",
+        "low\t40\t38\t39\t-\tno\t-\t-\ttoo short",
+        "rect\t40\t38\t40\t-\tno\t-\t-",
+        "rect\t40\tmany\t40\t-\tno\t-\t-\t-",
+        "rect\t40\t38\tNaN\t-\tno\t-\t-\t-",
+        "rect\t40\t38\t40\t-\tperhaps\t-\t-\t-",
+        "rect\t40\t38\t40\t-\tno\tsound\t-\tno such check",
+        "rect\t40\t38\t40\t-\tno\t-\tno-colours\t-",
+        "rect\t40\t38\t40\t-\tno\tgpu\t-\t-",
+        "rect\t40\t38\t40\t-\tno\t-\t-\ta reason for nothing",
+    ] {
+        assert!(parse(bad).is_err(), "{bad}");
+    }
+    assert_eq!(title("<svg><title> one </title>"), Some("one"));
+    assert_eq!(title("<svg><title></title>"), None);
 }
