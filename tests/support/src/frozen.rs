@@ -47,10 +47,10 @@ impl Frozen<'_> {
             Verdict::Same => {}
             Verdict::New if bless => {
                 let rows = format!("{rows}{}\t{}\n", self.version, hash(self.text));
-                for (path, text) in [(&table, rows.as_str()), (&blessed, self.text)] {
-                    std::fs::write(path, text)
-                        .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-                }
+                let write = std::fs::create_dir_all(self.folder)
+                    .and_then(|()| std::fs::write(&table, rows))
+                    .and_then(|()| std::fs::write(&blessed, self.text));
+                write.unwrap_or_else(|error| panic!("{}: {error}", self.folder.display()));
             }
             Verdict::New => panic!(
                 "version {} of {} has no row in {}: run this test once with VTEX_BLESS=1 and commit \

@@ -55,7 +55,8 @@ fn chapters(root: &Path) -> Vec<PathBuf> {
         .map(|entry| entry.unwrap().path())
         .filter(|path| path.is_dir())
         .collect();
-    folders.sort();
+    // Filters first: resvg takes minutes for one of them, and no thread is to wait for it at the end.
+    folders.sort_by_key(|folder| (!folder.ends_with("filter"), folder.clone()));
     folders
 }
 
