@@ -45,7 +45,7 @@ impl<P: Fn(u32) -> [f64; 4]> Covering<'_, P> {
         let weight = f64::from(group.opacity) * masks.product::<f64>();
         if group.isolated {
             let picture = self.paint(&group.children, [0.0; 4]);
-            return blend(group.blend, picture.map(|c| weight * c), ground);
+            return blend(group.blend, ground, picture.map(|c| weight * c));
         }
         let picture = self.paint(&group.children, ground);
         std::array::from_fn(|i| (1.0 - weight) * ground[i] + weight * picture[i])
