@@ -52,6 +52,23 @@ vtex_need_rust() {
     done
 }
 
+# The standard library that the check for browsers compiles against.
+vtex_need_wasm() {
+    local target=wasm32-unknown-unknown
+    if [ -d "$(rustc --print target-libdir --target "$target")" ]; then
+        return 0
+    fi
+    if ! command -v rustup >/dev/null; then
+        vtex_fail "no rustup to fetch $target with; install it with what installed Rust"
+        return 1
+    fi
+    vtex_say "rustup target add $target"
+    if ! rustup target add "$target"; then
+        vtex_fail "cannot fetch $target; run again with a network"
+        return 1
+    fi
+}
+
 # A C compiler: zstd-sys compiles libzstd.
 vtex_need_compiler() {
     if ! command -v cc >/dev/null && ! command -v gcc >/dev/null; then

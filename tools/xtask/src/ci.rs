@@ -1,12 +1,13 @@
 //! `cargo xtask ci`: everything a change must pass, each step timed.
 
+use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, ensure};
 
-use crate::tidy;
 use crate::workspace::Workspace;
+use crate::{package, tidy};
 
 /// How a step ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,12 +18,16 @@ enum Outcome {
     Skipped,
 }
 
+/// What browsers run.
+const WASM: &str = "wasm32-unknown-unknown";
+
 type Step = (&'static str, fn(&Workspace) -> Result<Outcome>);
 
 /// Quick ones first.
 const STEPS: &[Step] = &[
     ("format", |ws| cargo(ws, &["fmt", "--all", "--check"])),
     ("tidy", |ws| Ok(outcome(tidy::run(ws)?))),
+    ("package", |ws| Ok(outcome(package::run(ws)?))),
     ("clippy", |ws| {
         let lint = [
             "clippy",
@@ -38,6 +43,7 @@ const STEPS: &[Step] = &[
         let mut command = ws.cargo(&arguments);
         execute(command.env("RUSTDOCFLAGS", "-D warnings"))
     }),
+    ("wasm", wasm),
     // Unit, integration and doc tests.
     ("test", |ws| {
         cargo(ws, &["test", "--release", "--workspace", "--locked"])
@@ -119,6 +125,26 @@ fn execute(command: &mut Command) -> Result<Outcome> {
 
 fn cargo(ws: &Workspace, arguments: &[&str]) -> Result<Outcome> {
     execute(&mut ws.cargo(arguments))
+}
+
+/// The runtime, and all below it, in a browser: with the path tracer and without.
+fn wasm(ws: &Workspace) -> Result<Outcome> {
+    let directory = ["--print", "target-libdir", "--target", WASM];
+    let directory = Workspace::output_of(ws.command("rustc", &directory))?;
+    if !Path::new(directory.trim()).is_dir() {
+        println!("no standard library for {WASM}: rustup target add {WASM}");
+        return Ok(Outcome::Failed);
+    }
+    // The smaller set last: what it shares with the larger one is built by then.
+    for features in ["webgpu,ruzstd,tracer", "webgpu,ruzstd"] {
+        let mut arguments = vec!["check", "--release", "--locked", "--target", WASM];
+        arguments.extend(["-p", "vtex-runtime", "--no-default-features"]);
+        arguments.extend(["--features", features]);
+        if cargo(ws, &arguments)? == Outcome::Failed {
+            return Ok(Outcome::Failed);
+        }
+    }
+    Ok(Outcome::Passed)
 }
 
 /// Whether cargo-deny is there; says how to get it otherwise.

@@ -5,6 +5,7 @@
 
 mod ci;
 mod corpus;
+mod package;
 mod rooms;
 mod tidy;
 mod workspace;
