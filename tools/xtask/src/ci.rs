@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, ensure};
 
-use crate::tidy;
+use crate::{package, tidy};
 use crate::workspace::Workspace;
 
 /// How a step ended.
@@ -34,6 +34,7 @@ const WASM: &str = "wasm32-unknown-unknown";
 const STEPS: &[Step] = &[
     ("format", |ws, _| cargo(ws, &["fmt", "--all", "--check"])),
     ("tidy", |ws, _| Ok(outcome(tidy::run(ws)?))),
+    ("package", |ws, _| Ok(outcome(package::run(ws)?))),
     ("clippy", |ws, _| {
         let lint = [
             "clippy",
