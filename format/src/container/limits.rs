@@ -5,6 +5,10 @@
 /// A section's memory is asked for in one piece once its length is known to be what grid, records
 /// and budgets allow; besides that reading holds a few bytes a table entry, and strings in memory
 /// take up to three times their stored length, tiles four thirds.
+///
+/// The C library unpacks a section into that one piece; the decoder in Rust (feature `ruzstd` without
+/// `zstd`) fills a buffer of its own first, which takes up to twice the section's raw length, and with
+/// the smaller one that it replaces up to three times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// All sections together.
