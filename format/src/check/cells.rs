@@ -48,7 +48,8 @@ pub(super) struct Bounds {
 pub(super) fn entries(file: &VtexFile, tables: &Tables, issues: &mut Issues) {
     let (pairs, rest) = file.entries.as_chunks::<2>();
     if !rest.is_empty() {
-        let message = format_args!("{} words", file.entries.len());
+        let count = file.entries.len();
+        let message = format_args!("{count} words");
         issues.add(
             issue::ENTRY_COUNT,
             Tag::ENTR,

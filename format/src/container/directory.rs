@@ -58,7 +58,8 @@ pub(crate) fn read_directory(
         end = at.place(bytes, end);
     }
     if end < bytes.len() as u64 {
-        let message = format_args!("{} bytes too many", bytes.len() as u64 - end);
+        let extra = bytes.len() as u64 - end;
+        let message = format_args!("{extra} bytes too many");
         issues.add(issue::TRAILING, Tag::HEAD, end, message);
     }
     let sections: Vec<_> = table.iter().map(SectionInfo::decode).collect();

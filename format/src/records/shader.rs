@@ -37,7 +37,8 @@ impl ShaderBlob {
     /// Reads a section's raw bytes, noting what is wrong with them.
     pub(crate) fn decode(bytes: &[u8], issues: &mut Issues) -> Option<Self> {
         let Some((head, body)) = bytes.split_first_chunk::<SHADER_HEAD_BYTES>() else {
-            let message = format_args!("{} bytes are less than its head", bytes.len());
+            let length = bytes.len();
+            let message = format_args!("{length} bytes are less than its head");
             issues.add(issue::SHADER_LENGTH, Tag::SHDR, 0, message);
             return None;
         };

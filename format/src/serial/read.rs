@@ -252,7 +252,8 @@ impl Loader<'_> {
             rest = behind;
         }
         if count_bytes(rest) != 0 || (!parts.is_empty() && !rest.is_empty()) {
-            let message = format_args!("the last {} layers have no TILE", rest.len());
+            let count = rest.len();
+            let message = format_args!("the last {count} layers have no TILE");
             self.issues.add(issue::TILE_PARTS, Tag::SECT, 0, message);
             return None;
         }
