@@ -49,6 +49,7 @@ impl ToneMap {
         match self {
             Self::Clip => color,
             Self::Reinhard => {
+                // Of the luminance, not of each channel: bright colours keep their hue.
                 let luminance = 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
                 color.map(|c| c * (1.0 + luminance / 16.0) / (1.0 + luminance))
             }

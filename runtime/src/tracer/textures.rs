@@ -24,6 +24,8 @@ impl PackedTextures {
                 .map_err(|_| RuntimeError::Limit("textures of more than 16 GiB".to_owned()))?;
             packed.first_words.push(first);
             packed.words.extend(vtex_shaders::pack(file, &options.pack));
+            // One kernel serves all textures, so it needs what any of them needs. A texture without
+            // a feature skips that code by its own words.
             packed.features |= vtex_shaders::spec_key_with(file, &options.pack).features;
         }
         Ok(packed)
