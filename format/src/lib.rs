@@ -33,7 +33,7 @@
 //!         sampler: SamplerSettings::default(),
 //!         curve_lattice: None,
 //!     },
-//!     spec: bytemuck::Zeroable::zeroed(),
+//!     spec: SpecKey::default(),
 //!     shader: ShaderBlob {
 //!         abi: SHADER_ABI,
 //!         wgsl_fragment: String::new(),
@@ -98,7 +98,7 @@ pub use container::section::{Codec, SectionInfo};
 pub use container::tag::Tag;
 pub use curves::cut;
 pub use curves::source::{CurveSources, SourceError, SourceOutline, SourceRecord, SourceSegment};
-pub use file::spec::{Features, SHADER_ABI, SpecKey, SpecParts};
+pub use file::spec::{Features, SHADER_ABI, SpecKey};
 pub use file::texture::VtexFile;
 pub use records::curve::{
     CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CurveHeader, CurveLattice,

@@ -42,14 +42,8 @@ pub fn random_texture(seed: u64, features: u32) -> VtexFile {
             curve_lattice: None,
         },
         spec: SpecKey {
-            abi: SHADER_ABI,
-            features: 0,
-            address_u: 0,
-            address_v: 0,
-            texels_per_cell: 0,
-            max_entries: 0,
-            frames: 0,
-            reserved: 0,
+            features: features & Features::MIPS,
+            ..SpecKey::default()
         },
         shader: ShaderBlob {
             abi: SHADER_ABI,
@@ -102,7 +96,7 @@ pub fn random_texture(seed: u64, features: u32) -> VtexFile {
         let cell = random_cell(r, &mut file, features, &records);
         file.cells.push(cell.encode().expect("small indices"));
     }
-    file.spec = vtex_shaders::spec_key(&file);
+    file.spec = SpecKey::for_file(&file);
     file
 }
 

@@ -119,7 +119,7 @@ fn empty_file(scale: [f32; 2]) -> VtexFile {
             sampler: SamplerSettings::default(),
             curve_lattice: None,
         },
-        spec: bytemuck::Zeroable::zeroed(),
+        spec: SpecKey::default(),
         shader: ShaderBlob {
             abi: SHADER_ABI,
             wgsl_fragment: String::new(),

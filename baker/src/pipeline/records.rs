@@ -3,10 +3,10 @@
 use kurbo::{Rect, Shape as _};
 use vtex_format::{
     COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CurveLattice, FILL_EVEN_ODD, FILL_NON_ZERO,
-    Image, LayerRecord, Meta, Outline, SamplerSettings, ShaderBlob, ShapeRecord, SpecKey, VtexFile,
-    Warning, WarningCode,
+    Features, Image, LayerRecord, Meta, Outline, SamplerSettings, ShaderBlob, ShapeRecord, SpecKey,
+    VtexFile, Warning, WarningCode,
 };
-use vtex_shaders::{SpecParts, shader_blob, spec_key_from_parts};
+use vtex_shaders::shader_blob;
 
 use super::{layout::Layout, provenance::provenance};
 use crate::{
@@ -74,18 +74,14 @@ pub(super) fn file(
     let (curve_lattice, sources) = stored_curves(input, &lists, lattice, scales);
     let meta = meta(&drawing, config, lattice, curve_lattice, scales, outline);
     let (paints, gradients) = paints.into_records();
-    let (spec, shader) = specialised(&SpecParts {
-        sampler: &meta.sampler,
-        texels_per_cell: lattice.grid.texels_per_cell,
-        paints: &paints,
-        cells: &lists.words,
-        entries: &lists.entries,
-        canvas_mips: has_mips,
-    })?;
-    Ok(VtexFile {
+    let features = if has_mips { Features::MIPS } else { 0 };
+    specialised(VtexFile {
         meta,
-        spec,
-        shader,
+        spec: SpecKey {
+            features,
+            ..SpecKey::default()
+        },
+        shader: ShaderBlob::default(),
         paints,
         gradients,
         shapes: shape_records(input, lattice),
@@ -100,11 +96,12 @@ pub(super) fn file(
     })
 }
 
-/// The shader's key and text.
-fn specialised(parts: &SpecParts<'_>) -> Result<(SpecKey, ShaderBlob), BakeError> {
-    let spec = spec_key_from_parts(parts);
-    let shader = shader_blob(&spec).map_err(|error| BakeError::Shader(error.to_string()))?;
-    Ok((spec, shader))
+/// The file with the key and the text of its shader.
+fn specialised(mut file: VtexFile) -> Result<VtexFile, BakeError> {
+    file.spec = SpecKey::for_file(&file);
+    let blob = shader_blob(&file.spec);
+    file.shader = blob.map_err(|error| BakeError::Shader(error.to_string()))?;
+    Ok(file)
 }
 
 /// The file's general record.

@@ -6,7 +6,7 @@ use crate::container::tag::Tag;
 
 /// Stored in `SHDR`. The key in `SPEC` is the truth, this is a convenience: readers compare
 /// hashes and regenerate.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ShaderBlob {
     /// [`crate::SHADER_ABI`] it was made for.
     pub abi: u32,

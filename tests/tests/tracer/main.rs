@@ -26,8 +26,8 @@ fn cells_file(size: [u32; 2], colors: &[[f32; 4]]) -> VtexFile {
     let spec = SpecKey {
         abi: SHADER_ABI,
         features: 0,
-        address_u: AddressMode::Clamp as u32,
-        address_v: AddressMode::Clamp as u32,
+        address_u: AddressMode::Clamp,
+        address_v: AddressMode::Clamp,
         texels_per_cell: 8,
         max_entries: 0,
         frames: 0,
