@@ -25,6 +25,7 @@ mod refine;
 mod sources;
 mod spec;
 mod specialize;
+pub mod srgb;
 
 pub use layout::{BatchQuery, FilterMode};
 pub use link::{LinkContext, LinkError, link};

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use vtex_format::MaskKind;
 
-pub(crate) use vtex_shaders::cpu::color::{decode_channel as decode, encode_channel as encode};
+pub(crate) use vtex_shaders::srgb::{decode, encode};
 
 /// What a mask of one colour, straight alpha and sRGB-encoded, leaves of what it fades.
 pub(crate) fn mask_weight(kind: MaskKind, [r, g, b, a]: [f32; 4]) -> f32 {

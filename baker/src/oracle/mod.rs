@@ -10,7 +10,7 @@ mod tree;
 
 use kurbo::{Affine, Point};
 use vtex_format::{COVERAGE_CURVES, VtexFile};
-use vtex_shaders::cpu::color::decode;
+use vtex_shaders::srgb::decode;
 
 use crate::{
     BakeError,

@@ -1,7 +1,7 @@
 //! What the items at one point come to, group by group.
 
 use vtex_format::MaskKind;
-use vtex_shaders::cpu::color::decode;
+use vtex_shaders::srgb::decode;
 
 use super::blend::blend;
 use crate::drawing::tree::{Clip, Mask, Node, Scope};

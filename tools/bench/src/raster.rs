@@ -1,7 +1,7 @@
 //! The baseline: a raster texture with its mip chain, on the CPU and through the sampler.
 
 use vtex_format::Image;
-use vtex_shaders::layout::BatchQuery;
+use vtex_shaders::{layout::BatchQuery, srgb};
 
 use crate::device::{Device, Kernel};
 
@@ -118,7 +118,7 @@ pub(crate) fn halves_kernel(device: &Device, image: &Image) -> Kernel {
 
 /// As `wgsl/halves.wgsl` reads them.
 fn halves_words(image: &Image) -> Vec<u32> {
-    let decode = decode_table();
+    let decode = srgb::decode_table();
     let levels = Image::level_count(image.size);
     let mut words = vec![0; 20];
     words[..3].copy_from_slice(&[image.size[0], image.size[1], levels]);
@@ -146,7 +146,7 @@ impl<'a> CpuRaster<'a> {
     pub(crate) fn new(image: &'a Image) -> Self {
         Self {
             image,
-            decode: decode_table(),
+            decode: srgb::decode_table(),
         }
     }
 
@@ -206,18 +206,6 @@ fn floor_index(value: f32) -> usize {
 fn linear(decode: &[f32; 256], [r, g, b, a]: [u8; 4]) -> [f32; 4] {
     let color = [r, g, b].map(|byte| decode[usize::from(byte)]);
     [color[0], color[1], color[2], f32::from(a) / 255.0]
-}
-
-/// Linear light of the bytes, IEC 61966-2-1.
-pub(crate) fn decode_table() -> [f32; 256] {
-    std::array::from_fn(|byte| {
-        let encoded = byte as f32 / 255.0;
-        if encoded <= 0.04045 {
-            encoded / 12.92
-        } else {
-            ((encoded + 0.055) / 1.055).powf(2.4)
-        }
-    })
 }
 
 #[cfg(test)]

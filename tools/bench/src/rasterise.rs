@@ -6,6 +6,7 @@ use resvg::tiny_skia::{Pixmap, PremultipliedColorU8, Transform};
 use resvg::usvg;
 use vtex_baker::Resources;
 use vtex_format::Image;
+use vtex_shaders::srgb;
 
 /// Steps of the table that encodes linear light; a step is at most a twentieth of a byte's.
 const ENCODE_STEPS: usize = 1 << 16;
@@ -87,14 +88,10 @@ impl Transfer {
     fn new() -> Self {
         let encode = |step: usize| {
             let linear = step as f32 / (ENCODE_STEPS - 1) as f32;
-            let encoded = match linear <= 0.003_130_8 {
-                true => 12.92 * linear,
-                false => 1.055 * linear.powf(1.0 / 2.4) - 0.055,
-            };
-            byte(encoded)
+            byte(srgb::encode(linear))
         };
         Self {
-            decode: crate::raster::decode_table(),
+            decode: srgb::decode_table(),
             encode: (0..ENCODE_STEPS).map(encode).collect(),
         }
     }
