@@ -69,7 +69,7 @@ pub use container::section::{Codec, SectionInfo};
 pub use container::tag::Tag;
 pub use curves::cut;
 pub use curves::source::{CurveSources, SourceError, SourceOutline, SourceRecord, SourceSegment};
-pub use file::spec::{Features, SHADER_ABI, SpecKey, SpecParts};
+pub use file::spec::{Features, SHADER_ABI, SpecKey};
 pub use file::texture::VtexFile;
 pub use records::curve::{
     CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CurveHeader, CurveLattice,

@@ -83,7 +83,7 @@ impl BatchSampler {
             filled_buffer(device, queue, "vtex texture", bytes, BufferUsages::STORAGE)
         })
         .await?;
-        let key = vtex_shaders::spec_key_with(file, &options.pack);
+        let key = vtex_shaders::spec_key(file, &options.pack);
         let mut notices = Vec::new();
         let stored = match trusted_spirv(file, &key, trust, &mut notices) {
             Some(spirv) => stored_kernel(device, spirv, &mut notices).await,

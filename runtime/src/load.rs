@@ -70,7 +70,7 @@ impl GpuVtex {
         options: &LoadOptions,
     ) -> Result<Self, RuntimeError> {
         let words = vtex_shaders::pack(file, &options.pack);
-        let key = vtex_shaders::spec_key_with(file, &options.pack);
+        let key = vtex_shaders::spec_key(file, &options.pack);
         checked(device, "texture", || {
             let bytes = bytemuck::cast_slice(&words);
             let storage = BufferUsages::STORAGE;

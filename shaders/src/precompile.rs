@@ -62,15 +62,15 @@ pub fn shader_blob(key: &SpecKey) -> Result<ShaderBlob, PrecompileError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vtex_format::Features;
+    use vtex_format::{AddressMode, Features};
 
     #[test]
     fn kernels_compile_to_the_same_words_twice() {
         let key = SpecKey {
             abi: SHADER_ABI,
             features: Features::ALL & !Features::MASK,
-            address_u: 1,
-            address_v: 3,
+            address_u: AddressMode::Repeat,
+            address_v: AddressMode::Border,
             texels_per_cell: 8,
             max_entries: 40,
             frames: 0,

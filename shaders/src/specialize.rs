@@ -61,8 +61,8 @@ pub fn scene_context(features: u32, slot: BindingSlot) -> LinkContext {
     let key = normalized(&SpecKey {
         abi: 0,
         features,
-        address_u: AddressMode::Border as u32,
-        address_v: AddressMode::Border as u32,
+        address_u: AddressMode::Border,
+        address_v: AddressMode::Border,
         texels_per_cell: 1,
         max_entries: MAX_ENTRIES_PER_CELL,
         frames: MAX_FRAMES,
@@ -96,12 +96,12 @@ pub fn scene_context(features: u32, slot: BindingSlot) -> LinkContext {
 
 fn single_context(key: &SpecKey, slot: BindingSlot) -> LinkContext {
     let key = normalized(key);
-    let clamps = [key.address_u, key.address_v] == [AddressMode::Clamp as u32; 2];
+    let clamps = [key.address_u, key.address_v] == [AddressMode::Clamp; 2];
     let mut text = binding(slot);
     for (name, value) in [
         ("FEATURES", key.features),
-        ("ADDRESS_U", key.address_u),
-        ("ADDRESS_V", key.address_v),
+        ("ADDRESS_U", key.address_u as u32),
+        ("ADDRESS_V", key.address_v as u32),
         ("TEXELS_PER_CELL", key.texels_per_cell),
         ("MAX_ENTRIES", key.max_entries),
         ("FRAMES", key.frames),
@@ -326,8 +326,8 @@ mod tests {
         (0..=Features::ALL).step_by(5).map(|features| SpecKey {
             abi: vtex_format::SHADER_ABI,
             features,
-            address_u: features & 3,
-            address_v: (features >> 2) & 3,
+            address_u: AddressMode::ALL[(features & 3) as usize],
+            address_v: AddressMode::ALL[(features >> 2 & 3) as usize],
             texels_per_cell: 1 + features % 16,
             max_entries: features,
             frames: 0,

@@ -3,9 +3,9 @@
 use kurbo::{Rect, Shape as _};
 use vtex_format::{
     COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CurveLattice, FILL_EVEN_ODD, FILL_NON_ZERO,
-    Image, LayerRecord, Meta, Outline, SamplerSettings, ShaderBlob, ShapeRecord, SpecKey, VtexFile,
+    Features, Image, LayerRecord, Meta, Outline, SamplerSettings, ShapeRecord, SpecKey, VtexFile,
 };
-use vtex_shaders::{SpecParts, shader_blob, spec_key_from_parts};
+use vtex_shaders::shader_blob;
 
 use super::warnings::warnings;
 use super::{layout::Layout, provenance::provenance};
@@ -65,19 +65,8 @@ pub(super) fn file(
     let (curve_lattice, sources) = stored_curves(input, &lists, lattice, scales);
     let meta = meta(&drawing, config, lattice, curve_lattice, scales, outline);
     let (paints, gradients) = paints.into_records();
-    let (spec, shader) = specialised(&SpecParts {
-        sampler: &meta.sampler,
-        texels_per_cell: lattice.grid.texels_per_cell,
-        paints: &paints,
-        cells: &lists.words,
-        entries: &lists.entries,
-        canvas_mips: has_mips,
-    })?;
     let provenance = provenance(&drawing, input.placed, config, source_hash, warnings);
-    Ok(VtexFile {
-        meta,
-        spec,
-        shader,
+    let mut file = VtexFile {
         paints,
         gradients,
         shapes: shape_records(input, lattice),
@@ -89,14 +78,15 @@ pub(super) fn file(
         sources,
         provenance: Some(provenance),
         images: images(drawing, has_mips),
-    })
-}
-
-/// The spec key and the specialised shader.
-fn specialised(parts: &SpecParts<'_>) -> Result<(SpecKey, ShaderBlob), BakeError> {
-    let spec = spec_key_from_parts(parts);
-    let shader = shader_blob(&spec).map_err(|error| BakeError::Shader(error.to_string()))?;
-    Ok((spec, shader))
+        ..VtexFile::blank(meta)
+    };
+    if has_mips {
+        file.spec.features |= Features::MIPS;
+    }
+    file.spec = SpecKey::for_file(&file);
+    let shader = shader_blob(&file.spec);
+    file.shader = shader.map_err(|error| BakeError::Shader(error.to_string()))?;
+    Ok(file)
 }
 
 /// The record of the file as a whole.

@@ -1,7 +1,5 @@
 //! A whole file as a value.
 
-use bytemuck::Zeroable as _;
-
 use super::spec::{SHADER_ABI, SpecKey};
 use crate::curves::source::CurveSources;
 use crate::records::image::Image;
@@ -58,7 +56,7 @@ impl VtexFile {
         let cells = vec![0; columns.saturating_mul(rows)];
         let mut file = Self {
             meta,
-            spec: SpecKey::zeroed(),
+            spec: SpecKey::default(),
             shader: ShaderBlob {
                 abi: SHADER_ABI,
                 wgsl_fragment: String::new(),

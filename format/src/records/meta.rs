@@ -112,6 +112,23 @@ pub enum AddressMode {
     Border = 3,
 }
 
+impl AddressMode {
+    /// All of them; each stands at its own number.
+    pub const ALL: [Self; 4] = [Self::Clamp, Self::Repeat, Self::Mirror, Self::Border];
+
+    /// The mode of a number; `None` when there is none.
+    pub(crate) fn from_number(number: u32) -> Option<Self> {
+        Self::ALL.into_iter().find(|mode| *mode as u32 == number)
+    }
+}
+
+impl SamplerSettings {
+    /// Whether the texture matrix is not the identity.
+    pub fn is_transformed(&self) -> bool {
+        self.texture_matrix != Self::default().texture_matrix
+    }
+}
+
 impl Default for SamplerSettings {
     fn default() -> Self {
         Self {

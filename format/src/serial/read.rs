@@ -195,8 +195,15 @@ impl Loader<'_> {
 
     fn spec(&mut self) -> Option<SpecKey> {
         let &(index, _) = self.all(Tag::SPEC).first()?;
-        self.expect_bytes(index, issue::SPEC_LENGTH, size_of::<SpecKey>() as u64)?;
-        self.records(Tag::SPEC)?.pop()
+        self.expect_bytes(index, issue::SPEC_LENGTH, 4 * SpecKey::WORDS as u64)?;
+        let words: Vec<u32> = self.records(Tag::SPEC)?;
+        let &words = words.first_chunk()?;
+        let key = SpecKey::decode(words);
+        if key.is_none() {
+            let message = format_args!("{}, {}", words[2], words[3]);
+            self.issues.add(issue::SPEC_ADDRESS, Tag::SPEC, 8, message);
+        }
+        key
     }
 
     fn shader(&mut self) -> Option<ShaderBlob> {

@@ -96,15 +96,13 @@ impl VtexFile {
             )
         })?;
         let provenance = self.provenance.as_ref().map(codec::encode);
+        let spec = self.spec.encode();
         let records: Vec<_> = self.images.iter().map(ImageRecord::of).collect();
         let cells = offsets::stored_cells(&self.cells, &self.entries);
         let entries = offsets::stored_entries(&self.entries, &self.curves);
         let mut parts = vec![
             Part::whole(Tag::META, codec::encode(&self.meta)),
-            Part::whole(
-                Tag::SPEC,
-                words_to_little_endian(std::slice::from_ref(&self.spec)),
-            ),
+            Part::whole(Tag::SPEC, words_to_little_endian(&spec).into_owned()),
             Part::whole(Tag::SHDR, shader),
             Part::whole(Tag::PROV, provenance.unwrap_or_default()),
             Part::whole(Tag::PANT, words_to_little_endian(&self.paints)),

@@ -4,8 +4,8 @@
 use std::collections::BTreeSet;
 
 use vtex_format::{
-    CurveLattice, Entry, EntryKind, Features, FieldError, Grid, ISSUES, Image, Issue, LayerRecord,
-    Limits, Outline, ReadError, Tag, VtexFile, validate,
+    AddressMode, CurveLattice, Entry, EntryKind, Features, FieldError, Grid, ISSUES, Image, Issue,
+    LayerRecord, Limits, Outline, ReadError, Tag, VtexFile, validate,
 };
 
 use crate::forge::{Forged, put_together, seal, take_apart};
@@ -112,6 +112,8 @@ const CONTENT_CASES: &[FileCase] = &[
         s[PROV].refill(&content);
     }),
     (3030, |s| cut(&mut s[SPEC], 4)),
+    (3035, |s| patch(&mut s[SPEC], 8, &[4])),
+    (3035, |s| patch(&mut s[SPEC], 15, &[1])),
     (3040, |s| s[SHDR].refill(&[0; 8])),
     (3040, |s| patch(&mut s[SHDR], 4, &u32::MAX.to_le_bytes())),
     (3040, |s| patch(&mut s[SHDR], 8, &u32::MAX.to_le_bytes())),
@@ -176,7 +178,7 @@ const VALUE_CASES: &[ValueCase] = &[
     (3033, |f| f.spec.features = 0),
     (3034, |f| f.spec.features |= Features::MASK),
     (3034, |f| f.meta.sampler.outline = None),
-    (3035, |f| f.spec.address_v = 0),
+    (3035, |f| f.spec.address_v = AddressMode::Clamp),
     (3036, |f| f.spec.texels_per_cell = 3),
     (3037, |f| f.spec.max_entries = 2),
     (3037, |f| f.spec.max_entries = 4),

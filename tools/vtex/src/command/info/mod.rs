@@ -170,7 +170,7 @@ fn members(file: &VtexFile, layer: u32) -> Vec<usize> {
 }
 
 fn spec_words(file: &VtexFile) -> String {
-    hex(bytemuck::bytes_of(&file.spec))
+    hex(bytemuck::bytes_of(&file.spec.encode()))
 }
 
 fn hex(bytes: &[u8]) -> String {
