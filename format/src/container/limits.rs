@@ -1,4 +1,4 @@
-//! Budgets for reading files that nobody vouches for.
+//! Budgets for reading untrusted files.
 
 /// Upper bounds that reading checks before it allocates. All in bytes after decompression.
 ///
