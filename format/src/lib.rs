@@ -68,7 +68,9 @@ pub use container::limits::Limits;
 pub use container::section::{Codec, SectionInfo};
 pub use container::tag::Tag;
 pub use curves::cut;
-pub use curves::source::{CurveSources, SourceError, SourceOutline, SourceRecord, SourceSegment};
+pub use curves::outlines::{
+    OutlineError, RecordParts, StoredOutline, StoredOutlines, StoredSegment,
+};
 pub use file::spec::{Features, SHADER_ABI, SpecKey};
 pub use file::texture::VtexFile;
 pub use records::curve::{

@@ -62,7 +62,7 @@ pub(super) fn file(
         paint: paints.intern(&config.stroke_color.map_or(Paint::BLACK, Paint::Solid)),
     });
     let warnings = warnings(&mut drawing, input, &lists);
-    let (curve_lattice, sources) = stored_curves(input, &lists, lattice, scales);
+    let (curve_lattice, outlines) = stored_curves(input, &lists, lattice, scales);
     let meta = meta(&drawing, config, lattice, curve_lattice, scales, outline);
     let (paints, gradients) = paints.into_records();
     let provenance = provenance(&drawing, input.placed, config, source_hash, warnings);
@@ -75,7 +75,7 @@ pub(super) fn file(
         entries: lists.entries,
         tiles: stages.tiles,
         curves: lists.curves,
-        sources,
+        outlines,
         provenance: Some(provenance),
         images: images(drawing, has_mips),
         ..VtexFile::blank(meta)

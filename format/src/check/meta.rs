@@ -93,13 +93,13 @@ pub(crate) fn meta(meta: &Meta, issues: &mut Issues) -> bool {
     sound
 }
 
-/// Sources make just the records that stand beside them.
-pub(super) fn sources(file: &VtexFile, issues: &mut Issues) {
-    let Some((sources, lattice)) = file.sources.as_ref().zip(file.meta.curve_lattice) else {
+/// The stored outlines make exactly the records that stand beside them.
+pub(super) fn outlines(file: &VtexFile, issues: &mut Issues) {
+    let Some((outlines, lattice)) = file.outlines.as_ref().zip(file.meta.curve_lattice) else {
         return;
     };
     let most = file.curves.len() as u64;
-    match sources.records_within(&file.meta.grid, lattice, most) {
+    match outlines.records_within(&file.meta.grid, lattice, most) {
         Ok(words) if words == file.curves => {}
         Ok(words) => {
             let message = format_args!("{} words, not the {most} there are", words.len());

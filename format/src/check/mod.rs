@@ -29,7 +29,7 @@ pub(crate) fn file(file: &VtexFile, issues: &mut Issues) {
     // Without sound settings the lengths of cells and tiles mean nothing.
     if meta(&file.meta, issues) {
         content(file, issues);
-        meta::sources(file, issues);
+        meta::outlines(file, issues);
     }
 }
 

@@ -278,6 +278,9 @@ mod tests {
                 format!("| V{:04} | {fault} | {} |", kind.code, kind.summary)
             })
             .collect();
-        assert_eq!(rows, expected, "docs/format.md section 1.5 and ISSUES differ");
+        assert_eq!(
+            rows, expected,
+            "docs/format.md section 1.5 and ISSUES differ"
+        );
     }
 }

@@ -35,7 +35,7 @@ impl Tag {
     pub const ENTR: Self = Self(*b"ENTR");
     /// Curve records.
     pub const CURV: Self = Self(*b"CURV");
-    /// Outlines that curve records are cut from: [`crate::CurveSources`].
+    /// Outlines that curve records are cut from: [`crate::StoredOutlines`].
     pub const OUTL: Self = Self(*b"OUTL");
     /// MSDF tiles of a run of layers.
     pub const TILE: Self = Self(*b"TILE");

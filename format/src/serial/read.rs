@@ -15,7 +15,7 @@ use crate::container::limits::Limits;
 use crate::container::section::SectionInfo;
 use crate::container::tag::Tag;
 use crate::container::words::words_from_little_endian;
-use crate::curves::source::{CurveSources, SourceError, stream};
+use crate::curves::outlines::{OutlineError, StoredOutlines, stream};
 use crate::file::spec::SpecKey;
 use crate::file::texture::VtexFile;
 use crate::records::image::{Image, ImageRecord};
@@ -68,7 +68,7 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
         .as_deref()
         .and_then(|layers| loader.tiles(&meta, layers));
     let images = images.as_deref().and_then(|records| loader.images(records));
-    let (curves, sources) = curves?;
+    let (curves, outlines) = curves?;
     let (mut cells, mut entries) = (cells?, entries?);
     offsets::entries_from_stored(&mut entries, &curves);
     offsets::cells_from_stored(&mut cells, &entries);
@@ -83,7 +83,7 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
         cells,
         entries,
         curves,
-        sources,
+        outlines,
         tiles: tiles?,
         images: images?,
         provenance: provenance?,
@@ -219,7 +219,11 @@ impl Loader<'_> {
     }
 
     /// The curve records, stored or cut from outlines.
-    fn curves(&mut self, meta: &Meta, limits: &Limits) -> Option<(Vec<u32>, Option<CurveSources>)> {
+    fn curves(
+        &mut self,
+        meta: &Meta,
+        limits: &Limits,
+    ) -> Option<(Vec<u32>, Option<StoredOutlines>)> {
         let Some(&(index, _)) = self.all(Tag::OUTL).first() else {
             return Some((self.records(Tag::CURV)?, None));
         };
@@ -231,8 +235,8 @@ impl Loader<'_> {
         let known = self.sections.iter().filter(|s| s.tag.kind().is_some());
         let spent: u64 = known.map(|section| section.raw_bytes).sum();
         let budget = limits.total_raw_bytes.saturating_sub(spent);
-        let (words, sources) = self.accept(index, cut_records(&raw, meta, budget))?;
-        Some((words, Some(sources)))
+        let (words, outlines) = self.accept(index, cut_records(&raw, meta, budget))?;
+        Some((words, Some(outlines)))
     }
 
     /// The tiles of all layers, from sections whose layer ranges follow each other.
@@ -326,10 +330,14 @@ impl Loader<'_> {
 }
 
 /// The records that the bytes of `OUTL` make, in at most `budget` bytes of memory.
-fn cut_records(raw: &[u8], meta: &Meta, budget: u64) -> Result<(Vec<u32>, CurveSources), Refusal> {
-    let refuse = |error: SourceError| {
+fn cut_records(
+    raw: &[u8],
+    meta: &Meta,
+    budget: u64,
+) -> Result<(Vec<u32>, StoredOutlines), Refusal> {
+    let refuse = |error: OutlineError| {
         let kind = match error {
-            SourceError::Work => issue::OUTLINE_BUDGET,
+            OutlineError::Work => issue::OUTLINE_BUDGET,
             _ => issue::OUTLINES,
         };
         (kind, error.to_string())
@@ -342,13 +350,13 @@ fn cut_records(raw: &[u8], meta: &Meta, budget: u64) -> Result<(Vec<u32>, CurveS
         let message = format!("{needed} bytes, {budget} are left of total_raw_bytes");
         return Err((issue::OUTLINE_BUDGET, message));
     }
-    let sources = stream::decode(raw).map_err(refuse)?;
-    let words = sources
+    let outlines = stream::decode(raw).map_err(refuse)?;
+    let words = outlines
         .records_within(&meta.grid, lattice, u64::from(head.words))
         .map_err(refuse)?;
     if !head.vouches_for(&words) {
         let message = "the records are not those that the writer had".to_owned();
         return Err((issue::OUTLINE_RECORDS, message));
     }
-    Ok((words, sources))
+    Ok((words, outlines))
 }

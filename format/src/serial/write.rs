@@ -14,7 +14,7 @@ use crate::container::layout::{self, MAX_SECTIONS, entry, header, tile_texels};
 use crate::container::section::{Codec, SectionInfo};
 use crate::container::tag::Tag;
 use crate::container::words::words_to_little_endian;
-use crate::curves::source::stream;
+use crate::curves::outlines::stream;
 use crate::file::texture::VtexFile;
 use crate::records::image::ImageRecord;
 use crate::records::layer::LayerRecord;
@@ -126,8 +126,8 @@ impl VtexFile {
 
     /// The outlines where there are some, else the records.
     fn curve_part(&self) -> Part<'_> {
-        match &self.sources {
-            Some(sources) => Part::whole(Tag::OUTL, stream::encode(sources, &self.curves)),
+        match &self.outlines {
+            Some(outlines) => Part::whole(Tag::OUTL, stream::encode(outlines, &self.curves)),
             None => Part::whole(Tag::CURV, words_to_little_endian(&self.curves)),
         }
     }

@@ -35,7 +35,7 @@ fn a_file_with_outlines_instead_of_records() {
 fn outlines_and_records_give_the_same_lookups() {
     let outlined = sample::outlined();
     let plain = VtexFile {
-        sources: None,
+        outlines: None,
         ..outlined.clone()
     };
     let read = |file: &VtexFile| VtexFile::parse(&file.to_bytes().unwrap(), &Limits::default());

@@ -189,7 +189,7 @@ impl<'p> ListEncoder<'p> {
             .map_err(|_| BakeError::Limit("the cells' curves are too many".into()))?;
         curves.extend(words);
         self.records.insert(words.clone(), offset);
-        self.lists.sources.push(draft.source.clone());
+        self.lists.record_parts.push(draft.record_parts.clone());
         Ok(offset)
     }
 }
