@@ -190,11 +190,11 @@ impl EntryCheck<'_> {
             let message = format_args!("{stored} bytes stored, {raw} raw");
             self.note(issue::RAW_LENGTH, entry::RAW_BYTES, message);
         }
-        let image_part = section.tag == Tag::MIPS || (section.group, section.mip) == (0, 0);
+        let image_part = section.tag == Tag::MIPS || (section.image, section.mip) == (0, 0);
         let layer_part =
             section.tag == Tag::TILE || (section.layer_first, section.layer_count) == (0, 0);
         if section.tag.kind().is_some() && !(image_part && layer_part) {
-            self.note(issue::STRAY_PART, entry::GROUP, format_args!("not zero"));
+            self.note(issue::STRAY_PART, entry::IMAGE, format_args!("not zero"));
         }
     }
 

@@ -311,8 +311,8 @@ impl Loader<'_> {
         }
         let mut images: Vec<Image> = records.iter().map(ImageRecord::without_levels).collect();
         for ((index, section), (level, image)) in parts.into_iter().zip(order) {
-            if (section.mip, section.group as usize) != (level, image) {
-                let offset = entry_offset(index) + entry::GROUP as u64;
+            if (section.mip, section.image as usize) != (level, image) {
+                let offset = entry_offset(index) + entry::IMAGE as u64;
                 let message = format_args!("should be level {level} of image {image}");
                 self.issues
                     .add(issue::MIP_PARTS, Tag::SECT, offset, message);

@@ -188,7 +188,7 @@ fn assemble(parts: &[Part<'_>], stored: &[(Codec, Vec<u8>)]) -> Vec<u8> {
             stored_bytes: payload.len() as u64,
             raw_bytes: part.raw.len() as u64,
             hash: *blake3::hash(&part.raw).as_bytes(),
-            group: part.image.0,
+            image: part.image.0,
             mip: part.image.1,
             layer_first: part.layers.0,
             layer_count: part.layers.1,

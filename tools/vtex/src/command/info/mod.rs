@@ -111,7 +111,7 @@ fn json(file: &VtexFile, directory: &Directory) -> Value {
     let sections: Vec<_> = directory.sections.iter().map(|section| json!({
         "tag": section.tag.to_string(), "codec": format!("{:?}", section.codec).to_lowercase(),
         "raw_bytes": section.raw_bytes, "stored_bytes": section.stored_bytes,
-        "group": section.group, "mip": section.mip,
+        "group": section.image, "mip": section.mip,
     })).collect();
     let shapes: Vec<_> = file
         .shapes
