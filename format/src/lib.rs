@@ -85,8 +85,7 @@ pub use records::meta::{
 };
 pub use records::paint::{PAINT_LINEAR, PAINT_RADIAL, PAINT_SOLID, PaintRecord};
 pub use records::prov::{
-    EMBEDDED_SOURCE, FieldError, Finding, Preparation, Provenance, ShapeReport, Warning,
-    WarningCode,
+    EMBEDDED_SOURCE, Finding, MsdfError, Preparation, Provenance, ShapeReport, Warning, WarningCode,
 };
 pub use records::shader::ShaderBlob;
 pub use records::shape::{

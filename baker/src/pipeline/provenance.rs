@@ -61,7 +61,7 @@ fn report((item, placed): (&Item, &Placed)) -> Option<ShapeReport> {
                 Coverage::Msdf => placed.size_texels(),
                 Coverage::Curves => verdict.size_texels,
             },
-            field_error: verdict.error,
+            msdf_error: verdict.error,
             ..report
         }),
         PlacedKind::Patch => Some(ShapeReport {

@@ -4,8 +4,8 @@
 use std::collections::BTreeSet;
 
 use vtex_format::{
-    AddressMode, CurveLattice, Entry, EntryKind, Features, FieldError, Grid, ISSUES, Image, Issue,
-    LayerRecord, Limits, Outline, ReadError, Tag, VtexFile, validate,
+    AddressMode, CurveLattice, Entry, EntryKind, Features, Grid, ISSUES, Image, Issue, LayerRecord,
+    Limits, MsdfError, Outline, ReadError, Tag, VtexFile, validate,
 };
 
 use crate::forge::{Forged, put_together, seal, take_apart};
@@ -185,10 +185,10 @@ const VALUE_CASES: &[ValueCase] = &[
     (3038, |f| f.spec.reserved = 1),
     (3050, |f| f.provenance.as_mut().unwrap().shapes.truncate(2)),
     (3051, |f| f.provenance.as_mut().unwrap().options.reverse()),
-    (3052, |f| field_error(f).wrong_share = 1.5),
-    (3052, |f| field_error(f).wrong_share = f32::NAN),
-    (3052, |f| field_error(f).p99_px = -1.0),
-    (3052, |f| field_error(f).p99_px = f32::INFINITY),
+    (3052, |f| msdf_error(f).wrong_share = 1.5),
+    (3052, |f| msdf_error(f).wrong_share = f32::NAN),
+    (3052, |f| msdf_error(f).p99_px = -1.0),
+    (3052, |f| msdf_error(f).p99_px = f32::INFINITY),
     (3053, |f| *sample::area(f) = f32::NAN),
     (3053, |f| *sample::area(f) = 1.01),
     (4002, |f| {
@@ -251,9 +251,9 @@ const VALUE_CASES: &[ValueCase] = &[
     (6016, |f| f.images.swap(0, 1)),
 ];
 
-fn field_error(file: &mut VtexFile) -> &mut FieldError {
+fn msdf_error(file: &mut VtexFile) -> &mut MsdfError {
     let report = &mut file.provenance.as_mut().unwrap().shapes[1];
-    report.field_error.as_mut().unwrap()
+    report.msdf_error.as_mut().unwrap()
 }
 
 fn outline(file: &mut VtexFile) -> &mut Outline {

@@ -5,7 +5,7 @@ use arbtest::arbitrary::{Result, Unstructured};
 use bytemuck::Zeroable;
 use vtex_format::{
     AddressMode, COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CellWord, CurveHeader,
-    CurveLattice, Entry, EntryKind, Features, FieldError, Finding, Grid, Image, LayerRecord, Meta,
+    CurveLattice, Entry, EntryKind, Features, Finding, Grid, Image, LayerRecord, Meta, MsdfError,
     Outline, PaintRecord, Preparation, Provenance, RecordParts, SHADER_ABI, SamplerSettings,
     ShaderBlob, ShapeRecord, ShapeReport, SpecKey, StoredOutline, StoredOutlines, StoredSegment,
     VtexFile, Warning, WarningCode,
@@ -230,7 +230,7 @@ fn provenance(shape_count: usize) -> Provenance {
         preparation: Preparation::Simplified,
         finding: Finding::ThinFeature,
         size_texels: 31,
-        field_error: Some(FieldError {
+        msdf_error: Some(MsdfError {
             wrong_share: 0.25,
             p99_px: 1.5,
         }),

@@ -4,7 +4,7 @@
 //! would cost with curves alone, so a small and a large drawing are judged alike.
 
 use rayon::prelude::*;
-use vtex_format::{FieldError, Finding};
+use vtex_format::{Finding, MsdfError};
 
 use super::{
     candidate::Candidate,
@@ -282,9 +282,9 @@ fn verdict(trial: Option<Trial>, field: bool) -> Verdict {
 }
 
 /// The measured error as reports keep it.
-fn error_record(p99_px: f64, wrong_share: f64) -> FieldError {
+fn error_record(p99_px: f64, wrong_share: f64) -> MsdfError {
     let short = |x: f64| f32::from_bits(to_f32(x).to_bits() & SHORT_FLOAT);
-    FieldError {
+    MsdfError {
         wrong_share: short(wrong_share),
         p99_px: short(p99_px),
     }
