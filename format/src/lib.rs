@@ -15,7 +15,7 @@
 //! ```
 //! use vtex_format::{CellWord, Grid, Limits, Meta, PaintRecord, SpecKey, VtexFile};
 //!
-//! let red = CellWord::Solid { paint: 0 };
+//! let red = CellWord::Paint { paint: 0 };
 //! let mut file = VtexFile {
 //!     paints: vec![PaintRecord::solid([1.0, 0.0, 0.0, 1.0])],
 //!     cells: vec![red.encode().expect("0 fits 30 bits")],

@@ -265,7 +265,7 @@ fn random_cell(r: &mut Random, file: &mut VtexFile, features: u32, records: &[u3
     match r.below(6) {
         0 => return CellWord::Empty,
         1 => {
-            return CellWord::Solid {
+            return CellWord::Paint {
                 paint: r.below(PAINTS),
             };
         }

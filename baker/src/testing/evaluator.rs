@@ -55,7 +55,7 @@ impl Evaluator<'_> {
     pub(crate) fn point(&self, uv: [f64; 2]) -> [f64; 4] {
         let (word, entries, q) = self.entries(uv);
         let mut out = [0.0; 4];
-        if let CellWord::Solid { paint } = word {
+        if let CellWord::Paint { paint } = word {
             under(&mut out, self.file.paints[paint as usize].color);
         }
         for entry in entries {

@@ -29,14 +29,14 @@ pub const MAX_ITEMS: u64 = 1 << 23;
 /// | bits 31..30 | bits 29..0 |
 /// |---|---|
 /// | 0 empty | 0 |
-/// | 1 single colour | paint index; the lookup's whole answer, even when translucent |
+/// | 1 single paint | paint index; the lookup's whole answer, even when translucent |
 /// | 2 list | word offset of the first, frontmost entry in the entry section |
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CellWord {
     /// Nothing is drawn here.
     Empty,
     /// One paint covers the whole cell and all that lies behind is folded into it.
-    Solid {
+    Paint {
         /// Index into the paints.
         paint: u32,
     },
@@ -52,7 +52,7 @@ impl CellWord {
     pub fn encode(self) -> Option<u32> {
         let (tag, payload) = match self {
             Self::Empty => (0, 0),
-            Self::Solid { paint } => (1, paint),
+            Self::Paint { paint } => (1, paint),
             Self::List { offset_words } => (2, offset_words),
         };
         (payload <= PAYLOAD_MASK).then_some((tag << CELL_TAG_SHIFT) | payload)
@@ -63,7 +63,7 @@ impl CellWord {
         let payload = word & PAYLOAD_MASK;
         match word >> CELL_TAG_SHIFT {
             0 if payload == 0 => Some(Self::Empty),
-            1 => Some(Self::Solid { paint: payload }),
+            1 => Some(Self::Paint { paint: payload }),
             2 => Some(Self::List {
                 offset_words: payload,
             }),

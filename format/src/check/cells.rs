@@ -138,8 +138,8 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> Bounds {
         match CellWord::decode(word) {
             None => note(issue::CELL_WORD, format_args!("word {word:#010x}")),
             Some(CellWord::Empty) => {}
-            Some(CellWord::Solid { paint }) if (paint as usize) < file.paints.len() => {}
-            Some(CellWord::Solid { paint }) => {
+            Some(CellWord::Paint { paint }) if (paint as usize) < file.paints.len() => {}
+            Some(CellWord::Paint { paint }) => {
                 note(
                     issue::CELL_PAINT,
                     format_args!("{paint} of {}", file.paints.len()),

@@ -57,7 +57,7 @@ impl Default for SpecKey {
 pub struct Features;
 
 impl Features {
-    /// Some cell lists entries; without it every cell is empty or a single colour.
+    /// Some cell lists entries; without it every cell is empty or has a single paint.
     pub const LISTS: u32 = 1 << 0;
     /// Some entry is an MSDF tile.
     pub const MSDF: u32 = 1 << 1;
@@ -123,7 +123,7 @@ impl<'a> Content<'a> {
     fn solid_features(&self) -> u32 {
         let words = self.cells.iter();
         let paints = words.filter_map(|&word| match CellWord::decode(word) {
-            Some(CellWord::Solid { paint }) => Some(paint),
+            Some(CellWord::Paint { paint }) => Some(paint),
             _ => None,
         });
         paints.fold(0, |features, paint| features | self.gradient_feature(paint))

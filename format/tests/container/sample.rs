@@ -33,7 +33,7 @@ pub(crate) fn small() -> VtexFile {
     ];
     let cells = [
         CellWord::Empty,
-        CellWord::Solid { paint: 3 },
+        CellWord::Paint { paint: 3 },
         CellWord::List { offset_words: 0 },
         CellWord::List { offset_words: 6 },
     ];
@@ -469,7 +469,7 @@ fn any_entries(
 
 fn cell(u: &mut Unstructured<'_>, paints: &[PaintRecord], entry_count: u32) -> Result<u32> {
     let word = match u.int_in_range(0..=2)? {
-        1 => CellWord::Solid {
+        1 => CellWord::Paint {
             paint: u.choose_index(paints.len())? as u32,
         },
         2 if entry_count > 0 => CellWord::List {

@@ -60,7 +60,7 @@ pub(crate) fn paint(file: &mut VtexFile, color: [f32; 4]) -> u32 {
 
 pub(crate) fn set_solid(file: &mut VtexFile, cell: usize, color: [f32; 4]) {
     let paint = paint(file, color);
-    file.cells[cell] = CellWord::Solid { paint }
+    file.cells[cell] = CellWord::Paint { paint }
         .encode()
         .expect("small indices fit");
 }

@@ -37,7 +37,7 @@ fn gradient_paint(file: &mut VtexFile, gradient: &Gradient) -> u32 {
 fn solid_cell(gradient: &Gradient) -> VtexFile {
     let mut file = row_of(1);
     let paint = gradient_paint(&mut file, gradient);
-    file.cells[0] = CellWord::Solid { paint }.encode().expect("a small index");
+    file.cells[0] = CellWord::Paint { paint }.encode().expect("a small index");
     file
 }
 

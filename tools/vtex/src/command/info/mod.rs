@@ -62,7 +62,7 @@ impl CellStats {
         let listed: u64 = lengths().map(u64::from).sum();
         Self {
             empty: count(|cell| cell == CellWord::Empty),
-            single: count(|cell| matches!(cell, CellWord::Solid { .. })),
+            single: count(|cell| matches!(cell, CellWord::Paint { .. })),
             lists,
             entries_mean: listed as f64 / lists.max(1) as f64,
             entries_max: lengths().max().unwrap_or(0),
