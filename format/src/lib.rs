@@ -81,7 +81,7 @@ pub use records::gradient::{Gradient, GradientShape, GradientStop, MAX_GRADIENT_
 pub use records::image::{Image, MAX_IMAGE_SIDE, MAX_MIPS};
 pub use records::layer::LayerRecord;
 pub use records::meta::{
-    AddressMode, Grid, MAX_GRID_SIDE, MAX_TEXELS_PER_CELL, Meta, Outline, SamplerSettings,
+    AddressMode, DistanceOutline, Grid, MAX_GRID_SIDE, MAX_TEXELS_PER_CELL, Meta, SamplerSettings,
 };
 pub use records::paint::{PAINT_LINEAR, PAINT_RADIAL, PAINT_SOLID, PaintRecord};
 pub use records::prov::{

@@ -1,9 +1,9 @@
 //! Random textures: every feature a packed texture can have, without a baker.
 
 use vtex_format::{
-    AddressMode, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CellWord, CurveHeader, CurveLattice, Entry,
-    EntryKind, Features, Gradient, GradientShape, GradientStop, Grid, Image, Meta, Outline,
-    PaintRecord, SamplerSettings, SpecKey, Spread, VtexFile,
+    AddressMode, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CellWord, CurveHeader, CurveLattice,
+    DistanceOutline, Entry, EntryKind, Features, Gradient, GradientShape, GradientStop, Grid,
+    Image, Meta, PaintRecord, SamplerSettings, SpecKey, Spread, VtexFile,
 };
 
 use crate::random::Random;
@@ -98,7 +98,7 @@ fn random_settings(r: &mut Random, features: u32) -> SamplerSettings {
         address: [(); 2].map(|()| AddressMode::ALL[r.below(4) as usize]),
         smoothing: r.between(0.02, 0.3),
         mask: has(Features::MASK),
-        outline: has(Features::OUTLINE).then(|| Outline {
+        outline: has(Features::OUTLINE).then(|| DistanceOutline {
             width_texels: r.between(0.2, 1.2),
             paint: r.below(if has(Features::GRADIENTS) {
                 SOLIDS

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 use vtex_baker::{BakeConfig, Resources, bake};
-use vtex_format::{Features, Outline, SpecKey, VtexFile};
+use vtex_format::{DistanceOutline, Features, SpecKey, VtexFile};
 use vtex_shaders::cpu::Sampler;
 use vtex_shaders::{
     BatchQuery, BindingSlot, FilterMode, PackOptions, batch_kernel, link, pack, scene_context,
@@ -257,7 +257,7 @@ fn scoped_files() -> Vec<(String, VtexFile)> {
         let mut mask = plain.clone();
         mask.meta.sampler.mask = true;
         let mut outlined = plain.clone();
-        outlined.meta.sampler.outline = Some(Outline {
+        outlined.meta.sampler.outline = Some(DistanceOutline {
             width_texels: 0.3,
             paint: 1,
         });

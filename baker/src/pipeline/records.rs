@@ -2,8 +2,9 @@
 
 use kurbo::{Rect, Shape as _};
 use vtex_format::{
-    COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CurveLattice, FILL_EVEN_ODD, FILL_NON_ZERO,
-    Features, Image, LayerRecord, Meta, Outline, SamplerSettings, ShapeRecord, SpecKey, VtexFile,
+    COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CurveLattice, DistanceOutline, FILL_EVEN_ODD,
+    FILL_NON_ZERO, Features, Image, LayerRecord, Meta, SamplerSettings, ShapeRecord, SpecKey,
+    VtexFile,
 };
 use vtex_shaders::shader_blob;
 
@@ -57,7 +58,7 @@ pub(super) fn file(
         ..
     } = stages;
     let (lattice, scales) = (&layout.lattice, &layout.scales);
-    let outline = config.outline_texels.map(|width_texels| Outline {
+    let outline = config.outline_texels.map(|width_texels| DistanceOutline {
         width_texels,
         paint: paints.intern(&config.stroke_color.map_or(Paint::BLACK, Paint::Solid)),
     });
@@ -96,7 +97,7 @@ fn meta(
     lattice: &Lattice,
     curve_lattice: Option<CurveLattice>,
     scales: &Scales,
-    outline: Option<Outline>,
+    outline: Option<DistanceOutline>,
 ) -> Meta {
     Meta {
         canvas_size: drawing.canvas_size.map(to_f32),

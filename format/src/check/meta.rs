@@ -123,7 +123,7 @@ pub(super) fn curve_lattice(file: &VtexFile, issues: &mut Issues) {
     }
 }
 
-/// The outline's paint exists and is a single colour.
+/// The distance outline's paint exists and is a single colour.
 pub(super) fn outline_paint(file: &VtexFile, issues: &mut Issues) {
     let Some(outline) = file.meta.sampler.outline else {
         return;

@@ -85,16 +85,16 @@ pub struct SamplerSettings {
     pub smoothing: f32,
     /// Only alpha is wanted: lookups return it in all four channels.
     pub mask: bool,
-    /// Outline from the distance field, eq. 2.
-    pub outline: Option<Outline>,
+    /// The distance outline of eq. 2.
+    pub outline: Option<DistanceOutline>,
 }
 
-/// Eq. 2's outline around every shape that MSDF tiles or curves cover.
+/// The distance outline of eq. 2: a ring around every shape that MSDF tiles or curves cover.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Outline {
+pub struct DistanceOutline {
     /// How far it reaches outside the shape, in texels; less than half the distance range.
     pub width_texels: f32,
-    /// Index of its solid paint.
+    /// Index of its paint, a single colour.
     pub paint: u32,
 }
 

@@ -4,8 +4,8 @@
 use std::collections::BTreeSet;
 
 use vtex_format::{
-    AddressMode, CurveLattice, Entry, EntryKind, Features, Grid, ISSUES, Image, Issue, LayerRecord,
-    Limits, MsdfError, Outline, ReadError, Tag, VtexFile, validate,
+    AddressMode, CurveLattice, DistanceOutline, Entry, EntryKind, Features, Grid, ISSUES, Image,
+    Issue, LayerRecord, Limits, MsdfError, ReadError, Tag, VtexFile, validate,
 };
 
 use crate::forge::{Forged, put_together, seal, take_apart};
@@ -256,7 +256,7 @@ fn msdf_error(file: &mut VtexFile) -> &mut MsdfError {
     report.msdf_error.as_mut().unwrap()
 }
 
-fn outline(file: &mut VtexFile) -> &mut Outline {
+fn outline(file: &mut VtexFile) -> &mut DistanceOutline {
     file.meta.sampler.outline.as_mut().unwrap()
 }
 

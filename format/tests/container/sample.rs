@@ -5,10 +5,10 @@ use arbtest::arbitrary::{Result, Unstructured};
 use bytemuck::Zeroable;
 use vtex_format::{
     AddressMode, COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CellWord, CurveHeader,
-    CurveLattice, Entry, EntryKind, Features, Finding, Grid, Image, LayerRecord, Meta, MsdfError,
-    Outline, PaintRecord, Preparation, Provenance, RecordParts, SHADER_ABI, SamplerSettings,
-    ShaderBlob, ShapeRecord, ShapeReport, SpecKey, StoredOutline, StoredOutlines, StoredSegment,
-    VtexFile, Warning, WarningCode,
+    CurveLattice, DistanceOutline, Entry, EntryKind, Features, Finding, Grid, Image, LayerRecord,
+    Meta, MsdfError, PaintRecord, Preparation, Provenance, RecordParts, SHADER_ABI,
+    SamplerSettings, ShaderBlob, ShapeRecord, ShapeReport, SpecKey, StoredOutline, StoredOutlines,
+    StoredSegment, VtexFile, Warning, WarningCode,
 };
 
 /// A 2 x 2 grid with every kind of cell and entry, two layers, two images and every section.
@@ -157,7 +157,7 @@ fn meta(size_cells: [u32; 2], texels_per_cell: u32) -> Meta {
         max_zoom: 64.0,
         sampler: SamplerSettings {
             address: [AddressMode::Repeat, AddressMode::Border],
-            outline: Some(Outline {
+            outline: Some(DistanceOutline {
                 width_texels: 1.5,
                 paint: 0,
             }),

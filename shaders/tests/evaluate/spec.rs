@@ -1,6 +1,6 @@
 //! Keys from contents, and text from keys.
 
-use vtex_format::{AddressMode, Features, Outline, SamplerSettings, SpecKey};
+use vtex_format::{AddressMode, DistanceOutline, Features, SamplerSettings, SpecKey};
 use vtex_shaders::{BindingSlot, FilterMode, PackOptions, fragment, spec_key};
 
 use crate::builder::{Cover, key, paint, row_of, set_canvas, set_list, set_solid};
@@ -26,7 +26,7 @@ fn keys_say_what_a_file_holds() {
     );
     assert_eq!(SpecKey::for_file(&file).max_entries, 2);
     let glass = [1.0, 1.0, 1.0, 0.5];
-    let outline = Outline {
+    let outline = DistanceOutline {
         width_texels: 0.5,
         paint: paint(&mut file, glass),
     };
