@@ -213,7 +213,7 @@ fn trusted_spirv<'a>(
         return None;
     }
     if *key != file.spec {
-        notices.push("load options change the shader key: using our own shader".to_owned());
+        notices.push("load options change the spec key: using our own shader".to_owned());
         return None;
     }
     Some(&blob.batch_spirv)

@@ -1,4 +1,4 @@
-//! The shader key against what it was made for.
+//! The spec key against what it was made for.
 
 use super::cells::Bounds;
 use crate::container::issue::{self, Issues};
