@@ -52,14 +52,14 @@ mod file;
 mod records;
 mod serial;
 
+pub use cells::blocks::{
+    Block, ListFault, ListFaultKind, MAX_FRAMES, MaskBlock, jump_target, list_blocks, list_frames,
+};
 pub use cells::cell::{
     CELL_TAG_SHIFT, CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL, MAX_INDEXED, MAX_ITEMS,
     MAX_LIST_ITEMS,
 };
 pub use cells::control::{BlendMode, MaskKind, OPEN_ISOLATED};
-pub use cells::scope::{
-    Block, ListFault, ListFaultKind, MAX_FRAMES, MaskBlock, jump_target, list_blocks, list_frames,
-};
 pub use container::directory::{Directory, directory};
 pub use container::error::{ReadError, WriteError};
 pub use container::issue::{Fault, ISSUES, Issue, IssueKind};

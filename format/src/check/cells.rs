@@ -2,11 +2,11 @@
 
 use std::cell::OnceCell;
 
+use crate::cells::blocks::{ListFaultKind, list_frames};
 use crate::cells::cell::{
     CellWord, Entry, EntryKind, LAST_BIT, MAX_ENTRIES_PER_CELL, MAX_ITEMS, MAX_LIST_ITEMS,
 };
 use crate::cells::lists::{list_entries, list_lengths};
-use crate::cells::scope::{ListFaultKind, list_frames};
 use crate::container::issue::{self, Issues};
 use crate::container::tag::Tag;
 use crate::file::texture::VtexFile;

@@ -1,10 +1,10 @@
 //! The key of the specialised shader.
 
 use super::texture::VtexFile;
+use crate::cells::blocks::list_frames;
 use crate::cells::cell::{CellWord, Entry, EntryKind};
 use crate::cells::control::BlendMode;
 use crate::cells::lists::{list_entries, list_lengths};
-use crate::cells::scope::list_frames;
 use crate::records::meta::{AddressMode, SamplerSettings};
 use crate::records::paint::PaintRecord;
 

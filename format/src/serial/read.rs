@@ -5,7 +5,7 @@ use bytemuck::Pod;
 
 use super::levels::level_order;
 use super::unpack::{Refusal, allocate, unpack};
-use super::{codec, offsets, planes};
+use super::{canonical, offsets, planes};
 use crate::check::{self, images::image_records};
 use crate::container::directory::{entry_offset, read_directory, slice};
 use crate::container::error::ReadError;
@@ -167,7 +167,7 @@ impl Loader<'_> {
 
     fn meta(&mut self) -> Option<Meta> {
         let raw = self.raw(Tag::META)?;
-        let meta = match codec::decode(&raw) {
+        let meta = match canonical::decode(&raw) {
             Ok(meta) => meta,
             Err(message) => {
                 self.issues
@@ -183,7 +183,7 @@ impl Loader<'_> {
         if raw.is_empty() {
             return Some(None);
         }
-        match codec::decode(&raw) {
+        match canonical::decode(&raw) {
             Ok(provenance) => Some(Some(provenance)),
             Err(message) => {
                 self.issues

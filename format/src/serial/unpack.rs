@@ -2,7 +2,7 @@
 
 use bytemuck::Pod;
 
-use super::frame::Frame;
+use super::zstd_frame::Frame;
 use crate::container::issue::{self, IssueKind};
 use crate::container::section::{Codec, SectionInfo};
 

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use super::levels::level_order;
 use super::pack::pack;
-use super::{codec, offsets, planes};
+use super::{canonical, offsets, planes};
 use crate::check;
 use crate::container::error::WriteError;
 use crate::container::header::{Header, put};
@@ -95,13 +95,13 @@ impl VtexFile {
                 format_args!("4 GiB or more"),
             )
         })?;
-        let provenance = self.provenance.as_ref().map(codec::encode);
+        let provenance = self.provenance.as_ref().map(canonical::encode);
         let spec = self.spec.encode();
         let records: Vec<_> = self.images.iter().map(ImageRecord::of).collect();
         let cells = offsets::stored_cells(&self.cells, &self.entries);
         let entries = offsets::stored_entries(&self.entries, &self.curves);
         let mut parts = vec![
-            Part::whole(Tag::META, codec::encode(&self.meta)),
+            Part::whole(Tag::META, canonical::encode(&self.meta)),
             Part::whole(Tag::SPEC, words_to_little_endian(&spec).into_owned()),
             Part::whole(Tag::SHDR, shader),
             Part::whole(Tag::PROV, provenance.unwrap_or_default()),
