@@ -19,7 +19,7 @@ pub struct Meta {
     pub grid: Grid,
     /// Full width of the distances an MSDF texel can hold, in texels.
     pub distance_range_texels: f32,
-    /// Largest magnification the geometry was prepared for; 1 shows the canvas at 512 pixels.
+    /// Largest zoom the geometry was prepared for; 1 shows the longer side of the canvas at 512 pixels.
     pub max_zoom: f32,
     /// How lookups address and filter unless the caller overrides it.
     pub sampler: SamplerSettings,

@@ -94,7 +94,7 @@ pub enum Finding {
 pub struct Warning {
     /// Stable code.
     pub code: WarningCode,
-    /// SVG feature, such as `linearGradient` or `font-family`.
+    /// SVG feature, such as `filter` or `font-family`.
     pub feature: String,
     /// `id` of the SVG element, empty when it has none.
     pub element: String,
