@@ -39,6 +39,7 @@ pub fn spirv(wgsl: &str) -> Result<Vec<u32>, PrecompileError> {
         .map_err(|error| PrecompileError::Invalid(error.emit_to_string(wgsl)))?;
     let options = spv::Options {
         lang_version: SPIRV_VERSION,
+        // The flags are for debug names and for vertex and fragment stages; a kernel needs none.
         flags: spv::WriterFlags::empty(),
         ..spv::Options::default()
     };

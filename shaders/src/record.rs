@@ -54,6 +54,7 @@ fn direction(index: usize, down: usize) -> i32 {
 fn left_winding(parts: &Parts<'_>, p: Vec2) -> i32 {
     let mut winding = parts.base;
     for &step in parts.steps {
+        // Half open as the segments are: a step counts from its own height on.
         // The low half is y, the high half the signed change.
         if point(step)[0] <= p[1] {
             winding += step.cast_signed() >> 16;

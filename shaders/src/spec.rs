@@ -15,6 +15,8 @@ pub fn spec_key(file: &VtexFile, options: &PackOptions) -> SpecKey {
         address_v,
         ..SpecKey::for_file(file)
     };
+    // Set or cleared: the caller may override the file's matrix either way, and no file says how
+    // lookups filter.
     for (needed, feature) in [
         (sampler.is_transformed(), Features::TEXTURE_MATRIX),
         (options.filter != FilterMode::Point, Features::RAMPS),
@@ -44,12 +46,15 @@ pub(crate) fn normalized(key: &SpecKey) -> SpecKey {
     if features & Features::BLENDS != 0 {
         features |= Features::GROUPS;
     }
+    // A test looks at a curve record.
     if features & Features::CLIPS != 0 {
         features |= Features::CURVES;
     }
+    // Without edges there is no ramp across one and no ring around one.
     if features & (Features::MSDF | Features::CURVES) == 0 {
         features &= !(Features::OUTLINE | Features::RAMPS);
     }
+    // The texels of an image may have any alpha.
     if features & Features::IMAGES != 0 {
         features |= Features::TRANSLUCENT;
     }

@@ -43,6 +43,7 @@ pub fn batch_kernel(key: &SpecKey) -> String {
 /// Workgroup counts for `query_count` queries of the batch kernel.
 pub fn batch_dispatch(query_count: u32) -> [u32; 3] {
     let groups = query_count.div_ceil(BATCH_WORKGROUP);
+    // Rows as equal as they can be: fewer workgroups stand idle than there are rows.
     let rows = groups.div_ceil(MAX_WORKGROUPS);
     let columns = if rows == 0 { 0 } else { groups.div_ceil(rows) };
     [columns, rows, u32::from(rows != 0)]
@@ -64,6 +65,7 @@ pub fn scene_context(features: u32, slot: BindingSlot) -> LinkContext {
         address_u: AddressMode::Border,
         address_v: AddressMode::Border,
         texels_per_cell: 1,
+        // The bounds of any file: one text serves textures that are not known yet.
         max_entries: MAX_ENTRIES_PER_CELL,
         frames: MAX_FRAMES,
         reserved: 0,

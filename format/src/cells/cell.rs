@@ -62,6 +62,7 @@ impl CellWord {
     pub fn decode(word: u32) -> Option<Self> {
         let payload = word & PAYLOAD_MASK;
         match word >> CELL_TAG_SHIFT {
+            // An empty cell has one encoding, so equal grids have equal bytes.
             0 if payload == 0 => Some(Self::Empty),
             1 => Some(Self::Paint { paint: payload }),
             2 => Some(Self::List {
@@ -144,6 +145,7 @@ impl Entry {
         let last = if self.last { LAST_BIT } else { 0 };
         let opaque = if self.opaque { OPAQUE_BIT } else { 0 };
         let head = ((self.kind as u32) << KIND_SHIFT) | last | opaque | self.index;
+        // The stored field is wider than MAX_INDEXED; evaluators' items have 18 bits for the index.
         (self.index < MAX_INDEXED && self.is_sound()).then_some([head, self.data])
     }
 
@@ -177,9 +179,11 @@ impl Entry {
         match self.kind {
             EntryKind::Full | EntryKind::Image => self.data == 0,
             EntryKind::Msdf | EntryKind::Curves => true,
+            // A test that passes over nothing would cost time and change nothing.
             EntryKind::Test => self.index > 0,
             EntryKind::Open => !self.opaque && self.index == 0 && self.data <= OPEN_ISOLATED,
             EntryKind::Close => {
+                // The bits of negative numbers and of NaN are larger than those of 1.
                 !self.opaque && (self.index as usize) < modes && self.data <= ONE_BITS
             }
             EntryKind::Mask => {

@@ -7,6 +7,8 @@ use super::cell::{Entry, LAST_BIT, MAX_ENTRIES_PER_CELL};
 pub(crate) fn list_lengths(entries: &[u32]) -> Vec<Option<u32>> {
     let (pairs, _) = entries.as_chunks::<2>();
     let mut length = None;
+    // From the back each count follows from the one behind it. A count that is too large becomes
+    // `None` and stays so up to the next last entry.
     let backward = pairs.iter().rev().map(|[head, _]| {
         length = if head & LAST_BIT != 0 {
             Some(1)

@@ -147,6 +147,7 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> Bounds {
             }
             Some(CellWord::List { offset_words }) => {
                 let length = lengths.get(offset_words as usize / 2);
+                // An entry is two words: an odd offset names the second of them.
                 match length.filter(|_| offset_words % 2 == 0) {
                     None => note(issue::LIST_OFFSET, format_args!("word {offset_words}")),
                     Some(Some(length)) => {
@@ -218,6 +219,7 @@ struct Items {
 impl Items {
     fn of(file: &VtexFile) -> Self {
         let (pairs, _) = file.entries.as_chunks::<2>();
+        // From the back, so that lists that overlap take one pass.
         let mut behind = 0_u64;
         let backward = pairs.iter().rev().map(|&words| {
             let last = words[0] & LAST_BIT != 0;
@@ -236,6 +238,7 @@ impl Items {
 
     /// Items of a list, and whether it is asked for the first time.
     fn take(&mut self, first: usize) -> (u64, bool) {
+        // Invariant: the caller has found the length of this list, so the entry exists.
         let items = self.to_the_end[first];
         let is_new = !std::mem::replace(&mut self.taken[first], true);
         if is_new {
@@ -255,8 +258,11 @@ fn entry_items(file: &VtexFile, words: [u32; 2]) -> u64 {
     };
     let steps = record.iter().skip(CURVE_HEADER_WORDS as usize);
     let steps = steps.take(header.step_count as usize);
+    // Evaluators take an item for each unit by which a step changes the winding.
     let changes = steps.map(|step| u64::from((step.cast_signed() >> 16).unsigned_abs()));
     let base = header.base_winding;
+    // An evaluator's item holds a base winding of four bits, -8 to 7. Each unit beyond takes another
+    // item.
     let beyond = base.saturating_sub(7).max(-8 - base).max(0).unsigned_abs();
     let segments = u64::from(header.line_count) + u64::from(header.quad_count);
     (segments + changes.sum::<u64>() + u64::from(beyond)).max(1)

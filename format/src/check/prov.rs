@@ -26,6 +26,7 @@ pub(super) fn provenance(provenance: &Provenance, shape_count: usize, issues: &m
             issues.add(issue::PROV_AREA, Tag::PROV, 0, message);
         }
     }
+    // Strictly: no name occurs twice.
     if !provenance.options.is_sorted_by(|a, b| a.0 < b.0) {
         issues.add(
             issue::PROV_OPTIONS,

@@ -89,6 +89,7 @@ pub(crate) struct SectionKind {
 pub(crate) const SECTIONS: [SectionKind; 15] = [
     section(Tag::META, true, true, false),
     section(Tag::SPEC, true, true, false),
+    // SHDR, PROV and SHAP are not critical: lookups do without them.
     section(Tag::SHDR, false, true, false),
     section(Tag::PROV, false, false, false),
     section(Tag::PANT, true, false, false),

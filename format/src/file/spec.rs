@@ -144,6 +144,7 @@ impl<'a> Content<'a> {
         let features = flag(self.sampler.mask, Features::MASK)
             | flag(self.sampler.is_transformed(), Features::TEXTURE_MATRIX)
             | self.solid_features();
+        // Entries that no cell lists need no code.
         if self.lists().next().is_none() {
             return features;
         }
@@ -194,9 +195,11 @@ impl<'a> Content<'a> {
 
     /// Frames of the deepest list that a cell names; lists that break a rule are passed over.
     fn deepest_list(&self) -> u32 {
+        // Only control entries take frames.
         if self.features() & (Features::CLIPS | Features::GROUPS) == 0 {
             return 0;
         }
+        // Cells share lists; each is parsed once.
         let mut seen = vec![false; self.entries.len() / 2];
         let lists = self.lists().filter_map(|offset_words| {
             let place = offset_words as usize / 2;

@@ -52,6 +52,7 @@ impl GradientShape {
     /// `t`. Negative where one circle lies within the other; then every point has a `t`. -1 for a
     /// linear gradient.
     pub fn leading(&self) -> f64 {
+        // In f64: the sign decides whether the gradient is opaque, and near 0 the squares cancel.
         match *self {
             Self::Linear { .. } => -1.0,
             Self::Radial {

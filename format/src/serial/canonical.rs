@@ -24,6 +24,7 @@ pub(crate) fn decode<T: Serialize + DeserializeOwned>(bytes: &[u8]) -> Result<T,
     if used != bytes.len() {
         return Err(format!("{} bytes left over", bytes.len() - used));
     }
+    // One value, one encoding: a file that is read and written again keeps its bytes.
     if encode(&value) != bytes {
         return Err("not the canonical encoding".to_owned());
     }

@@ -15,6 +15,7 @@ pub(crate) fn stored_entries(entries: &[u32], curves: &[u32]) -> Vec<u32> {
     let mut expected = 0;
     for data in record_offsets(&mut stored) {
         let at = *data;
+        // Wrapping both ways: any word in memory comes back, also one that names nothing.
         *data = at.wrapping_sub(expected);
         expected = record_end(curves, at);
     }

@@ -53,6 +53,7 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
     };
     // Lengths of the rest hang on these settings.
     let meta = loader.meta()?;
+    // No `?` before all have been tried: `validate` lists the issues of every section.
     let spec = loader.spec();
     let shader = loader.shader();
     let provenance = loader.provenance();
@@ -70,6 +71,8 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
     let images = images.as_deref().and_then(|records| loader.images(records));
     let (curves, outlines) = curves?;
     let (mut cells, mut entries) = (cells?, entries?);
+    // In this order: an entry is stored relative to the end of a record, a cell relative to the end
+    // of a list.
     offsets::entries_from_stored(&mut entries, &curves);
     offsets::cells_from_stored(&mut cells, &entries);
     let file = VtexFile {
@@ -110,6 +113,7 @@ impl Loader<'_> {
     fn unpack(&mut self, index: usize, raw: &mut [u8]) -> Option<()> {
         let section = &self.sections[index];
         let start = section.offset_bytes;
+        // The directory has checked that this does not overflow.
         let stored = slice(self.bytes, start, start + section.stored_bytes);
         let result = unpack(section, stored, raw);
         self.accept(index, result)
@@ -234,6 +238,7 @@ impl Loader<'_> {
         let raw: Vec<u8> = self.load(index)?;
         let known = self.sections.iter().filter(|s| s.tag.kind().is_some());
         let spent: u64 = known.map(|section| section.raw_bytes).sum();
+        // What decoding takes counts as if it were stored.
         let budget = limits.total_raw_bytes.saturating_sub(spent);
         let (words, outlines) = self.accept(index, cut_records(&raw, meta, budget))?;
         Some((words, Some(outlines)))
@@ -262,6 +267,7 @@ impl Loader<'_> {
             self.expect_bytes(index, issue::TILE_BYTES, count_bytes(part))?;
             rest = behind;
         }
+        // Trailing layers without tiles belong to the last section. Without any tile there is none.
         if count_bytes(rest) != 0 || (!parts.is_empty() && !rest.is_empty()) {
             let message = format_args!("the last {} layers have no TILE", rest.len());
             self.issues.add(issue::TILE_PARTS, Tag::SECT, 0, message);
@@ -345,6 +351,7 @@ fn cut_records(
     let no_lattice = || (issue::CURVE_LATTICE_USE, "no lattice".to_owned());
     let lattice = meta.curve_lattice.ok_or_else(no_lattice)?;
     let head = stream::decode_head(raw).map_err(refuse)?;
+    // Before anything is allocated: the counts are what the file claims.
     let needed = head.memory_bytes();
     if needed > budget {
         let message = format!("{needed} bytes, {budget} are left of total_raw_bytes");
@@ -354,6 +361,7 @@ fn cut_records(
     let words = outlines
         .records_within(&meta.grid, lattice, u64::from(head.words))
         .map_err(refuse)?;
+    // The checksum is of the words that the writer had. It shows a machine that rounds otherwise.
     if !head.vouches_for(&words) {
         let message = "the records are not those that the writer had".to_owned();
         return Err((issue::OUTLINE_RECORDS, message));

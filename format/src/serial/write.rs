@@ -70,6 +70,7 @@ impl VtexFile {
         check::file(self, &mut issues);
         issues.accept(Some(()))?;
         let parts = self.parts()?;
+        // Each job has a slot of its own, so the order of the jobs does not show in the bytes.
         let slots: Vec<OnceLock<_>> = parts.iter().map(|_| OnceLock::new()).collect();
         run(parts.len(), &|index| {
             slots[index].get_or_init(|| pack(&parts[index].raw));
@@ -100,6 +101,7 @@ impl VtexFile {
         let records: Vec<_> = self.images.iter().map(ImageRecord::of).collect();
         let cells = offsets::stored_cells(&self.cells, &self.entries);
         let entries = offsets::stored_entries(&self.entries, &self.curves);
+        // In the order of `SECTIONS`, on which a reader insists.
         let mut parts = vec![
             Part::whole(Tag::META, canonical::encode(&self.meta)),
             Part::whole(Tag::SPEC, words_to_little_endian(&spec).into_owned()),
@@ -116,6 +118,7 @@ impl VtexFile {
         ];
         parts.extend(self.tile_parts());
         parts.extend(self.mip_parts());
+        // A section without content is left out (V2011).
         parts.retain(|part| !part.raw.is_empty());
         if parts.len() > MAX_SECTIONS as usize {
             let message = format_args!("{} sections, {MAX_SECTIONS} at most", parts.len());

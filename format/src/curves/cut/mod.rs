@@ -65,6 +65,7 @@ impl CellCurves {
 
     /// Adds what other shapes are to the same box; windings add up.
     pub fn join(&mut self, other: &Self) {
+        // A sum that saturates fits no record, which `record` says.
         self.base = self.base.saturating_add(other.base);
         for (&height, &change) in &other.steps {
             self.step(height, change);
@@ -88,6 +89,8 @@ impl CellCurves {
     }
 
     fn change(&mut self, height: f64, change: i32, size: f64) {
+        // A change at or above the top holds for the whole box, one at or below the bottom for none
+        // of it. A step counts from its own height on.
         if height <= 0.0 {
             self.base = self.base.saturating_add(change);
         } else if height < size {

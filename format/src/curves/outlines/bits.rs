@@ -31,6 +31,7 @@ impl BitWriter {
         let mut byte = 0;
         for (axis, number) in vector.map(zigzag).into_iter().enumerate() {
             let size = u64::BITS - number.leading_zeros();
+            // Six bits suffice: sums of a few 32-bit coordinates have fewer than 40 digits.
             if size >= ESCAPE {
                 self.put(u64::from(size), ESCAPE_BITS);
             }

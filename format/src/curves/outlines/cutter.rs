@@ -39,6 +39,7 @@ impl<'a> Cutter<'a> {
         let mut even_odd = false;
         for &outline in &record.outlines {
             self.cut(outline as usize, row, &cell, &mut curves)?;
+            // After each outline, so that memory stays bounded by the largest of them.
             if curves.is_too_much() {
                 return Err(OutlineError::Overflow);
             }
@@ -57,6 +58,8 @@ impl<'a> Cutter<'a> {
         let outline = &self.stored.outlines[index];
         let known = &mut self.rows[index];
         let mut work = 0;
+        // Writers store records row by row, so one row for each outline is enough. Another order is
+        // read as well and counts as more work.
         if known.as_ref().is_none_or(|(known, _)| *known != row) {
             work += outline.segments.len() as u64;
             *known = Some((row, row_segments(outline, cell)));
@@ -65,6 +68,7 @@ impl<'a> Cutter<'a> {
         work += CLIP_WORK * segments.len() as u64;
         self.work_left = self.work_left.checked_sub(work).ok_or(OutlineError::Work)?;
         let right = cell.origin.x + cell.size;
+        // In order of their smallest x: those from here on lie right of the box.
         for segment in segments.iter().take_while(|s| s.x_min() < right) {
             curves.add(segment, cell);
         }
@@ -114,6 +118,7 @@ fn row_segments(outline: &StoredOutline, cell: &CellBox) -> Vec<Segment> {
 /// From the upper to the lower end.
 fn downward(segment: &StoredSegment) -> Segment {
     let [from, to] = [segment.from, segment.to];
+    // By height, then from left to right: level segments have an upper end too.
     let down = (from[1], from[0]) < (to[1], to[0]);
     let (start, end) = if down { (from, to) } else { (to, from) };
     Segment {

@@ -35,7 +35,9 @@ impl Head {
     /// Memory that reading takes, in bytes, before the words themselves.
     pub(crate) fn memory_bytes(&self) -> u64 {
         let rows = size_of::<crate::curves::cut::Segment>() as u64;
+        // The head does not say how many outlines there are: at worst one a segment.
         let segment = size_of::<StoredSegment>() as u64 + size_of::<StoredOutline>() as u64;
+        // Plus the record's cell and count, held while the planes are read.
         let record = size_of::<RecordParts>() as u64 + 16;
         u64::from(self.segments) * (segment + rows)
             + u64::from(self.records) * record
@@ -119,6 +121,7 @@ impl Pen {
         let corner = segment.control.unwrap_or(segment.from);
         self.at = wide(segment.to);
         self.tangent = minus(self.at, wide(corner));
+        // The control point may lie on the end; then the curve arrives along its chord.
         if self.tangent == [0; 2] {
             self.tangent = minus(self.at, wide(segment.from));
         }
@@ -142,6 +145,7 @@ fn minus(a: [i64; 2], b: [i64; 2]) -> [i64; 2] {
 }
 
 fn plus(a: [i64; 2], b: [i64; 2]) -> [i64; 2] {
+    // A damaged stream can name any number; `narrow` refuses what is no coordinate.
     [a[0].wrapping_add(b[0]), a[1].wrapping_add(b[1])]
 }
 
@@ -168,6 +172,7 @@ impl Planes {
             self.moves.push(self.digits.vector(way));
             pen.begin(wide(segment.from));
         }
+        // The last segment of a contour ends at its start, which takes no vector.
         let closes = wide(segment.to) == pen.start;
         if closes {
             kind |= CLOSE;
@@ -268,6 +273,7 @@ impl<'a> Bytes<'a> {
 
     fn varint(&mut self) -> Result<u64, OutlineError> {
         let mut value = 0;
+        // Five bytes hold the 33 bits of a difference.
         for shift in (0..35).step_by(7) {
             let (&byte, rest) = self.0.split_first().ok_or(OutlineError::Stream)?;
             self.0 = rest;
