@@ -1,6 +1,6 @@
 //! Preparing outlines for MSDFs: overlaps are removed.
 //!
-//! A distance field needs contours that neither cross nor overlap and whose insides all lie on the
+//! An MSDF needs contours that neither cross nor overlap and whose insides all lie on the
 //! same side. Then the distance to the nearest edge has the right sign, and every fill rule gives
 //! the same answer. Curves need none of this: they test windings.
 //!
