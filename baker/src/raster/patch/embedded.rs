@@ -17,7 +17,7 @@ use crate::{
         mips::{self, LinearImage},
         texel,
     },
-    svg::{Step, Subtree},
+    svg::{PlanItem, Subtree},
 };
 
 /// Texels of all embedded images of a file together: 32 MiB with their mips. Images beyond it
@@ -140,13 +140,13 @@ impl Embedded {
     }
 }
 
-/// For each step the embedded image, if it is one that keeps its texels.
-pub(super) fn choose(steps: &[Step<'_>]) -> Vec<Option<Embedded>> {
-    let image = |step: &Step<'_>| match step {
-        Step::Raster(subtree) => Embedded::of(subtree),
-        Step::Shape(_) | Step::Clip(_) => None,
+/// For each item the embedded image, if it is one that keeps its texels.
+pub(super) fn choose(items: &[PlanItem<'_>]) -> Vec<Option<Embedded>> {
+    let image = |item: &PlanItem<'_>| match item {
+        PlanItem::Raster(subtree) => Embedded::of(subtree),
+        PlanItem::Shape(_) | PlanItem::Clip(_) => None,
     };
-    let mut embedded: Vec<Option<Embedded>> = steps.iter().map(image).collect();
+    let mut embedded: Vec<Option<Embedded>> = items.iter().map(image).collect();
     share_out(embedded.iter_mut());
     embedded
 }

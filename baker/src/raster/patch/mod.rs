@@ -17,7 +17,7 @@ use vtex_format::{Warning, WarningCode};
 use crate::{
     drawing::{Item, Patch, Shape, tree::Tree},
     raster::mips::{self, LinearImage},
-    svg::{Plan, Step, Subtree},
+    svg::{Plan, PlanItem, Subtree},
     warning::{self, Warnings},
 };
 use density::{MAX_PATCH_TEXELS, WANTED_DENSITY};
@@ -29,29 +29,29 @@ pub(crate) use density::PatchSettings;
 /// Feature of a patch that stands for a shape too complex for curve records.
 pub(crate) const SHAPE_FEATURE: &str = "path";
 
-/// Turns the steps of a plan into the items of a drawing, in painter's order: subtrees become
+/// Turns the items of a plan into those of a drawing, in painter's order: subtrees become
 /// images.
 pub(crate) fn resolve(
     plan: Plan<'_>,
     settings: PatchSettings,
     warnings: &Warnings,
 ) -> (Vec<Item>, Tree) {
-    let embedded = embedded::choose(&plan.steps);
+    let embedded = embedded::choose(&plan.items);
     let patched = plan
-        .steps
+        .items
         .iter()
         .zip(&embedded)
         .filter_map(|pair| match pair {
-            (Step::Raster(subtree), None) => Some(subtree),
+            (PlanItem::Raster(subtree), None) => Some(subtree),
             _ => None,
         });
     // One density for all patches, so that neighbours look equally sharp.
     let density = settings.common_density(patched);
     let painted: Vec<Outcome> = plan
-        .steps
+        .items
         .into_par_iter()
         .zip(embedded)
-        .map(|(step, image)| Outcome::of(step, image, settings, density))
+        .map(|(item, image)| Outcome::of(item, image, settings, density))
         .collect();
     // Warnings are collected here and not while painting: their order must not depend on threads.
     let mut items = Vec::with_capacity(painted.len());
@@ -72,7 +72,7 @@ pub(crate) fn resolve(
     (items, plan.tree.renumbered(&place))
 }
 
-/// The result of one step.
+/// The result of one item of a plan.
 enum Outcome {
     /// An item that needs no warning: geometry or an embedded image.
     Item(Item),
@@ -85,11 +85,16 @@ enum Outcome {
 }
 
 impl Outcome {
-    fn of(step: Step<'_>, image: Option<Embedded>, settings: PatchSettings, density: f64) -> Self {
-        let subtree = match step {
-            Step::Shape(shape) => return Self::Item(Item::Shape(shape)),
-            Step::Clip(clip) => return Self::Item(Item::Clip(clip)),
-            Step::Raster(subtree) => subtree,
+    fn of(
+        item: PlanItem<'_>,
+        image: Option<Embedded>,
+        settings: PatchSettings,
+        density: f64,
+    ) -> Self {
+        let subtree = match item {
+            PlanItem::Shape(shape) => return Self::Item(Item::Shape(shape)),
+            PlanItem::Clip(clip) => return Self::Item(Item::Clip(clip)),
+            PlanItem::Raster(subtree) => subtree,
         };
         let image = image.and_then(|image| image.patch(&subtree, settings.canvas_size));
         match image {
