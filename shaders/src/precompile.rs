@@ -43,6 +43,7 @@ pub fn spirv(wgsl: &str) -> Result<Vec<u32>, PrecompileError> {
         flags: spv::WriterFlags::empty(),
         ..spv::Options::default()
     };
+    // Without a choice of an entry point: the kernel has only one.
     spv::write_vec(&module, &info, &options, None)
         .map_err(|error| PrecompileError::Write(error.to_string()))
 }

@@ -40,9 +40,11 @@ pub(crate) fn normalized(key: &SpecKey) -> SpecKey {
         Features::MSDF | Features::CURVES | Features::IMAGES | Features::TRANSLUCENT | SCOPED;
     const SCOPED: u32 = Features::CLIPS | Features::GROUPS | Features::BLENDS;
     let mut features = key.features & Features::ALL;
+    // Without lists no entry is looked at.
     if features & Features::LISTS == 0 {
         features &= !LISTED;
     }
+    // Only groups blend.
     if features & Features::BLENDS != 0 {
         features |= Features::GROUPS;
     }

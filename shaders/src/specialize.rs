@@ -62,6 +62,7 @@ pub fn scene_context(features: u32, slot: BindingSlot) -> LinkContext {
     let key = normalized(&SpecKey {
         abi: 0,
         features,
+        // A scene reads these three from the header of each texture; here they stand for nothing.
         address_u: AddressMode::Border,
         address_v: AddressMode::Border,
         texels_per_cell: 1,
@@ -98,6 +99,7 @@ pub fn scene_context(features: u32, slot: BindingSlot) -> LinkContext {
 
 fn single_context(key: &SpecKey, slot: BindingSlot) -> LinkContext {
     let key = normalized(key);
+    // The default, which needs no choice between modes.
     let clamps = [key.address_u, key.address_v] == [AddressMode::Clamp; 2];
     let mut text = binding(slot);
     for (name, value) in [

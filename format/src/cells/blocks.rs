@@ -1,12 +1,12 @@
 //! How the entries of a list hang together: what is clipped by what, which groups there are.
 //!
-//! A list is a row of *blocks*, front to back, each of which is
+//! A list is a sequence of *blocks*, front to back. A block is one of these:
 //!
 //! - an entry that draws;
 //! - a *clip*: tests, then the blocks that they let through. A test passes over entries as far as a
 //!   later test of its own clip, the first block behind them all, or the clip's end;
 //! - a *group*: any number of masks, each `Open` (isolated), blocks, `Mask`, then `Open`, blocks,
-//!   `Close`. A mask passes over all that follows it as far as behind the `Close`.
+//!   `Close`. A mask passes over all that follows it, up to and with the `Close`.
 //!
 //! Where a clip begins and ends follows from where its tests jump: it is the shortest run of entries
 //! from its first test on that no test inside it leaves.
@@ -16,10 +16,10 @@ use std::ops::Range;
 use super::cell::{Entry, EntryKind};
 use super::control::{BlendMode, OPEN_ISOLATED};
 
-/// Groups and clips that may lie in one another: what an evaluator keeps for each is an array of so
-/// many. Deeper drawings are for the baker to flatten.
+/// Groups and clips that may be nested: evaluators keep an array of so many frames. The baker
+/// flattens drawings that need more.
 pub const MAX_FRAMES: u32 = 32;
-/// Clips that parsing enters before those with one end become one. Bounds its recursion.
+/// Nested clips that parsing enters, before clips with one end are joined. Bounds its recursion.
 const MAX_DEPTH: u32 = 64;
 
 /// A part of a list. Numbers count entries from the list's first.
@@ -219,7 +219,7 @@ impl Parser<'_> {
         let (close, tests_end) = self.clip_range(start, end)?;
         let mut body = self.blocks(tests_end..close, depth + 1)?;
         let mut tests = start..tests_end;
-        // What one clip alone guards within another is guarded by both.
+        // A clip whose body is one clip is joined with it: both guard the same blocks.
         if let [Block::Clip { tests: inner, .. }] = body.as_slice() {
             tests.end = inner.end;
             let Some(Block::Clip { body: inner, .. }) = body.pop() else {

@@ -157,7 +157,8 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> Bounds {
                         if count > u64::from(MAX_LIST_ITEMS) {
                             note(issue::LIST_ITEMS, format_args!("{count} items"));
                         }
-                        // What is too much altogether is refused without a look at each.
+                        // Lists that overlap could take quadratic time. The bound on all items, one
+                        // at least for each entry, keeps the work linear: past it none is parsed.
                         if controls && is_new && items.total <= MAX_ITEMS {
                             let frames = controls_of(&file.entries, first, issues);
                             bounds.frames = bounds.frames.max(frames);
@@ -212,7 +213,7 @@ fn controls_of(entries: &[u32], first: usize, issues: &mut Issues) -> u32 {
 struct Items {
     to_the_end: Vec<u64>,
     taken: Vec<bool>,
-    /// Of the lists taken so far, each once.
+    /// Items of the lists taken so far, each list once.
     total: u64,
 }
 

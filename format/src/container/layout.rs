@@ -69,7 +69,7 @@ pub(crate) mod meta {
     pub(crate) const SMOOTHING: u64 = 76;
     pub(crate) const OUTLINE_WIDTH: u64 = 82;
     pub(crate) const OUTLINE_PAINT: u64 = 86;
-    /// Of the lattice without an outline; an outline moves it back by its own size.
+    /// Without a distance outline; one moves the lattice back by [`OUTLINE_BYTES`].
     pub(crate) const CURVE_LATTICE: u64 = 83;
     pub(crate) const OUTLINE_BYTES: u64 = 8;
 }

@@ -90,7 +90,7 @@ impl Features {
     pub const ALL: u32 = (1 << 14) - 1;
 }
 
-/// What of a file decides what its shader contains.
+/// The parts of a file that decide what its shader contains.
 struct Content<'a> {
     sampler: &'a SamplerSettings,
     paints: &'a [PaintRecord],

@@ -150,6 +150,7 @@ impl Gradient {
             2 => Spread::Repeat,
             _ => return None,
         };
+        // Whatever follows the numbers of the shape must be whole stops.
         let (stops, rest) = stops.as_chunks::<STOP_NUMBERS>();
         let some = (1..=MAX_GRADIENT_STOPS as usize).contains(&stops.len());
         (some && rest.is_empty()).then(|| Self {

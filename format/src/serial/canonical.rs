@@ -1,9 +1,9 @@
 //! The one seam to bincode: fixed-width little-endian integers, every byte consumed, and only the
 //! encoding that we would write ourselves.
 //!
-//! bincode believes a string's length and allocates it unless a limit, which is a constant of the
-//! type, forbids; so the limit is the power of 16 above the input. It bounds neither zero-sized
-//! elements nor recursion: no type here has either.
+//! bincode trusts the length of a string and allocates that much, unless a limit forbids it. The
+//! limit is a constant of the type, so it is the next power of 16 above the length of the input. It
+//! bounds neither zero-sized elements nor recursion: no type here has either.
 
 use bincode::config::{Configuration, Fixint, LittleEndian};
 use serde::{Serialize, de::DeserializeOwned};

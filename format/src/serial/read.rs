@@ -304,6 +304,7 @@ impl Loader<'_> {
             return None;
         }
         let parts = self.all(Tag::MIPS);
+        // Counted first: the `zip` below ends with the shorter of the two.
         let order = level_order(records.iter().map(|record| record.level_count));
         if parts.len() as u64
             != records
@@ -328,6 +329,7 @@ impl Loader<'_> {
             self.expect_bytes(index, issue::MIP_BYTES, expected)?;
             images[image].mips.push(self.load(index)?);
         }
+        // The file has the smallest level first.
         for image in &mut images {
             image.mips.reverse();
         }

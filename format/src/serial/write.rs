@@ -141,6 +141,7 @@ impl VtexFile {
         let bytes = |layer: &LayerRecord| tile_bytes * u64::from(layer.tile_count);
         let mut runs: Vec<(u32, u32, u64)> = Vec::new();
         for (index, layer) in (0_u32..).zip(&self.layers) {
+            // A layer without tiles joins any run: it adds no bytes.
             match runs.last_mut() {
                 Some((_, count, total)) if *total < TILE_PART_BYTES || bytes(layer) == 0 => {
                     *count += 1;
@@ -179,6 +180,7 @@ impl VtexFile {
 
 /// Lays packed sections behind header and table.
 fn assemble(parts: &[Part<'_>], stored: &[(Codec, Vec<u8>)]) -> Vec<u8> {
+    // Room for header and table, which are written last.
     let mut bytes = vec![0; header::BYTES + parts.len() * entry::BYTES];
     let mut table = Vec::with_capacity(parts.len() * entry::BYTES);
     for (part, (codec, payload)) in parts.iter().zip(stored) {

@@ -96,7 +96,7 @@ impl Segment {
     }
 }
 
-/// What a segment is to a box.
+/// How a segment lies to a box.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Clipped {
     /// The part in the box, relative to its corner.

@@ -317,6 +317,7 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<StoredOutlines, OutlineError> {
     let mut bytes = Bytes(bytes);
     bytes.take(4 * HEAD_WORDS + CHECKSUM_BYTES)?;
     let kinds = bytes.take(head.segments as usize)?;
+    // The kinds say how long the planes behind them are.
     let count = |has: fn(u8) -> bool| kinds.iter().filter(|&&kind| has(kind)).count();
     let moves = bytes.take(count(|kind| kind & MOVE != 0))?;
     let controls = bytes.take(count(|kind| kind & QUADRATIC != 0))?;
@@ -395,6 +396,7 @@ impl Reader<'_> {
                 });
             }
             let segment = self.segment(kind)?;
+            // Fails where the first segment begins no outline.
             outlines.last_mut()?.segments.push(segment);
         }
         Some(outlines)
