@@ -62,7 +62,7 @@ pub fn scene_context(features: u32, slot: BindingSlot) -> LinkContext {
     let key = normalized(&SpecKey {
         abi: 0,
         features,
-        // A scene reads these three from the header of each texture; here they stand for nothing.
+        // Not in the text of a scene, which reads them from the header of each texture.
         address_u: AddressMode::Border,
         address_v: AddressMode::Border,
         texels_per_cell: 1,

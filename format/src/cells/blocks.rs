@@ -17,7 +17,7 @@ use super::cell::{Entry, EntryKind};
 use super::control::{BlendMode, OPEN_ISOLATED};
 
 /// Groups and clips that may be nested: evaluators keep an array of so many frames. The baker
-/// flattens drawings that need more.
+/// makes an image of what nests deeper.
 pub const MAX_FRAMES: u32 = 32;
 /// Nested clips that parsing enters, before clips with one end are joined. Bounds its recursion.
 const MAX_DEPTH: u32 = 64;
