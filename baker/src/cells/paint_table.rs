@@ -101,7 +101,7 @@ pub(crate) fn number_paints(
         .iter()
         .map(|item| match &item.kind {
             PlacedKind::Shape { paint, .. } => paints.intern(paint),
-            PlacedKind::Patch => patches.next().unwrap_or(u32::MAX),
+            PlacedKind::Image => patches.next().unwrap_or(u32::MAX),
             // A clip is never painted; any number does.
             PlacedKind::Clip => 0,
         })

@@ -76,7 +76,7 @@ pub(crate) fn cover(
     let cutter = curve_lattice(placed, lattice, scales)
         .map(|curve_lattice| Cutter::new(lattice, curve_lattice, scales));
     let cover_one = |placed: &Placed| {
-        if placed.kind == PlacedKind::Patch {
+        if placed.kind == PlacedKind::Image {
             return Ok(Cover::default());
         }
         if let (true, Some(cutter)) = (placed.is_curves(), &cutter) {

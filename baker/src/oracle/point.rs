@@ -93,7 +93,7 @@ impl Oracle {
             let (outline, rule, paint) = match item {
                 Item::Shape(shape) => (&shape.outline, shape.fill_rule, Some(&shape.paint)),
                 Item::Clip(clip) => (&clip.outline, clip.rule, None),
-                Item::Patch(_) => return Ok(None),
+                Item::Image(_) => return Ok(None),
             };
             let outline = units_from_canvas * clean(outline, canvas_longer);
             let Ok(lowered) = LoweredOutline::new(&outline, tolerance) else {

@@ -105,7 +105,7 @@ fn lay(drawing: &Drawing, judgement: &Judgement, config: &BakeConfig) -> Attempt
 /// About how many segments the cells of `lattice` would cut the outlines into. They are placed on
 /// another lattice, so lengths are taken relative to the canvas.
 fn cut_segments(placed: &[Placed], lattice: &Lattice) -> f64 {
-    let shapes = placed.iter().filter(|item| item.kind != PlacedKind::Patch);
+    let shapes = placed.iter().filter(|item| item.kind != PlacedKind::Image);
     let segments = shapes.flat_map(|item| item.outline.segments());
     let reach: f64 = segments
         .map(|segment| {

@@ -125,7 +125,7 @@ fn shape_records(input: &CellInput<'_>, lattice: &Lattice) -> Vec<ShapeRecord> {
                 Coverage::Msdf => (COVERAGE_MSDF, layer, paint_or_image),
                 Coverage::Curves => (COVERAGE_CURVES, layer, paint_or_image),
             },
-            PlacedKind::Patch => (COVERAGE_IMAGE, paint_or_image, 0),
+            PlacedKind::Image => (COVERAGE_IMAGE, paint_or_image, 0),
             PlacedKind::Clip => return None,
         };
         Some(ShapeRecord {
@@ -159,10 +159,10 @@ fn bounds_uv(area: Rect, lattice: &Lattice) -> [f32; 4] {
 
 /// The file's images: a placeholder for mips, if there will be any, and those of the drawing.
 fn images(drawing: Drawing, mips: bool) -> Vec<Image> {
-    let patches = drawing.items.into_iter().filter_map(|item| match item {
-        Item::Patch(patch) => Some(patch.image),
+    let images = drawing.items.into_iter().filter_map(|item| match item {
+        Item::Image(item) => Some(item.image),
         Item::Shape(_) | Item::Clip(_) => None,
     });
     let mips = mips.then(canvas::no_mips);
-    mips.into_iter().chain(patches).collect()
+    mips.into_iter().chain(images).collect()
 }

@@ -115,7 +115,7 @@ pub(crate) fn paint_exactly(
                 let region = Region::new(&closed(&(to_uv * &shape.outline)), shape.fill_rule);
                 Some((region, solid(&shape.paint)))
             }
-            Item::Patch(_) | Item::Clip(_) => None,
+            Item::Image(_) | Item::Clip(_) => None,
         })
         .collect();
     move |uv| {

@@ -76,7 +76,7 @@ fn draft_item<'a>(input: &CellInput<'a>, present: Present, cell: u32) -> Vec<Dra
     let index = item as usize;
     let paint = input.paint_or_image[index];
     // The index names an image here, not a paint.
-    if input.placed[index].kind == PlacedKind::Patch {
+    if input.placed[index].kind == PlacedKind::Image {
         return vec![Draft::Image { image: paint }];
     }
     if full {

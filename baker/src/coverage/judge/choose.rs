@@ -131,7 +131,7 @@ fn subjects(drawing: &Drawing, longer_side_px: f64) -> Vec<Option<Subject>> {
                 prepared,
             })
         }
-        Item::Patch(_) | Item::Clip(_) => None,
+        Item::Image(_) | Item::Clip(_) => None,
     };
     drawing.items.par_iter().map(subject).collect()
 }

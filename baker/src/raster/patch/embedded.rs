@@ -10,7 +10,7 @@ use vtex_format::EMBEDDED_SOURCE;
 
 use super::resvg::paint_node;
 use crate::{
-    drawing::Patch,
+    drawing::ImageItem,
     number::to_f32,
     raster::{
         detail,
@@ -104,7 +104,7 @@ impl Embedded {
     }
 
     /// The image at its place on the canvas; `None` when resvg could not paint it.
-    pub(super) fn patch(self, subtree: &Subtree<'_>, canvas_size: [f64; 2]) -> Option<Patch> {
+    pub(super) fn patch(self, subtree: &Subtree<'_>, canvas_size: [f64; 2]) -> Option<ImageItem> {
         let size = self.stored_size();
         let mut pixmap = Pixmap::new(size[0], size[1])?;
         let texel_from_image = Affine::scale(self.enlarged.into());
@@ -131,7 +131,7 @@ impl Embedded {
             rect.x1 / across,
             rect.y1 / down,
         ];
-        Some(Patch {
+        Some(ImageItem {
             rect,
             image: mips::chain(level0, rect_uv.map(to_f32)),
             feature: EMBEDDED_SOURCE.to_owned(),

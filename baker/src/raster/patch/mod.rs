@@ -15,7 +15,7 @@ use tiny_skia::Pixmap;
 use vtex_format::{Warning, WarningCode};
 
 use crate::{
-    drawing::{Item, Patch, Shape, tree::Tree},
+    drawing::{ImageItem, Item, Shape, tree::Tree},
     raster::mips::{self, LinearImage},
     svg::{Plan, PlanItem, Subtree},
     warning::{self, Warnings},
@@ -77,7 +77,7 @@ enum Outcome {
     /// An item that needs no warning: geometry or an embedded image.
     Item(Item),
     /// A patch and its density.
-    Patch(Patch, f64),
+    Patch(ImageItem, f64),
     /// Nothing: all of it is transparent.
     Nothing,
     /// resvg failed on this feature of this element.
@@ -98,7 +98,7 @@ impl Outcome {
         };
         let image = image.and_then(|image| image.patch(&subtree, settings.canvas_size));
         match image {
-            Some(patch) => Self::Item(Item::Patch(patch)),
+            Some(patch) => Self::Item(Item::Image(patch)),
             None => Self::painted(&subtree, settings, density),
         }
     }
@@ -126,7 +126,7 @@ impl Outcome {
             Self::Item(item) => Some(item),
             Self::Patch(patch, _) => {
                 warnings.add(patch_warning(&patch, canvas_size));
-                Some(Item::Patch(patch))
+                Some(Item::Image(patch))
             }
             Self::Nothing => None,
             Self::Failed(feature, element) => {
@@ -149,7 +149,7 @@ fn paint_subtree(subtree: &Subtree<'_>, window: &Window) -> Option<Pixmap> {
 
 /// A shape as a patch, within its `share` of the texels of all patches; `None` when nothing of it
 /// shows.
-pub(crate) fn of_shape(shape: &Shape, settings: PatchSettings, share: f64) -> Option<Patch> {
+pub(crate) fn of_shape(shape: &Shape, settings: PatchSettings, share: f64) -> Option<ImageItem> {
     let bounds = shape
         .outline
         .control_box()
@@ -169,10 +169,10 @@ pub(crate) fn of_shape(shape: &Shape, settings: PatchSettings, share: f64) -> Op
 pub(crate) fn whole_canvas(
     settings: PatchSettings,
     paint: impl FnOnce([u32; 2]) -> LinearImage,
-) -> (Patch, Option<Warning>) {
+) -> (ImageItem, Option<Warning>) {
     let density = settings.density_of_canvas();
     let picture = paint(settings.lattice(density));
-    let patch = Patch {
+    let patch = ImageItem {
         rect: settings.canvas_rect(),
         image: mips::chain(picture, [0.0, 0.0, 1.0, 1.0]),
         feature: "raster".to_owned(),
@@ -182,7 +182,7 @@ pub(crate) fn whole_canvas(
     (patch, coarse.then(coarse_warning))
 }
 
-fn patch_warning(patch: &Patch, canvas_size: [f64; 2]) -> Warning {
+fn patch_warning(patch: &ImageItem, canvas_size: [f64; 2]) -> Warning {
     let (feature, [width, height]) = (&patch.feature, patch.image.size);
     Warning {
         code: WarningCode::RasterPatch,
