@@ -17,7 +17,7 @@ pub(crate) struct CellInput<'a> {
     pub(crate) placed: &'a [Placed],
     /// Where they show; empty for images.
     pub(crate) covers: &'a [Cover],
-    /// Index of the paint, or of the image for a patch.
+    /// Index of the paint, or of the image.
     pub(crate) paint_or_image: &'a [u32],
     /// Their ranks.
     pub(crate) packing: &'a Packing,
