@@ -69,7 +69,7 @@ impl Features {
     pub const TRANSLUCENT: u32 = 1 << 4;
     /// Lookups return alpha in all four channels.
     pub const MASK: u32 = 1 << 5;
-    /// Eq. 2's outline is on.
+    /// The distance outline of eq. 2 is on.
     pub const OUTLINE: u32 = 1 << 6;
     /// The texture matrix is not the identity.
     pub const TEXTURE_MATRIX: u32 = 1 << 7;
