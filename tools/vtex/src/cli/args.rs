@@ -14,7 +14,7 @@ use super::values::{Color, Matrix, Size, color, matrix, size, view};
 
 /// Bake SVG drawings into vector textures (.vtex), and inspect, check, compare and render them.
 #[derive(Debug, Parser)]
-#[command(name = "vtex", version, about, max_term_width = 100, after_help = EXIT_CODES)]
+#[command(name = "vtex", version, max_term_width = 100, after_help = EXIT_CODES)]
 pub(crate) struct Cli {
     /// What to do.
     #[command(subcommand)]
@@ -30,6 +30,8 @@ const EXIT_CODES: &str = "Exit codes: 0 success, 1 wrong command line, 2 a file 
 
 /// Settings of all commands.
 #[derive(Clone, Copy, Debug, Args)]
+// Without a heading of their own clap mixes them into the options of each command.
+#[command(next_help_heading = "Options of all commands")]
 pub(crate) struct Global {
     /// Format of the results on standard output
     #[arg(
@@ -115,7 +117,7 @@ pub(crate) struct Bake {
     /// Write nothing: compare with the existing outputs, and exit with 7 if one is missing or differs
     #[arg(long)]
     pub(crate) check: bool,
-    /// Write a Makefile rule for each output to FILE: the files that it depends on
+    /// Write to FILE, as Makefile rules, on which files each output depends
     #[arg(long, value_name = "FILE")]
     pub(crate) depfile: Option<PathBuf>,
     /// Keep a copy of each bake in DIR, and reuse it while SVG, options, fonts and the version of
