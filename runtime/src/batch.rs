@@ -85,7 +85,7 @@ impl BatchSampler {
             filled_buffer(device, queue, "vtex texture", bytes, BufferUsages::STORAGE)
         })
         .await?;
-        let key = vtex_shaders::spec_key_with(file, &options.pack);
+        let key = vtex_shaders::spec_key(file, &options.pack);
         let mut notices = Vec::new();
         let stored = match trusted_spirv(file, &key, trust, &mut notices) {
             Some(spirv) => stored_kernel(device, spirv, &mut notices).await,
@@ -220,7 +220,7 @@ fn trusted_spirv<'a>(
         return None;
     }
     if *key != file.spec {
-        notices.push("load options change the shader key: using our own shader".to_owned());
+        notices.push("load options change the spec key: using our own shader".to_owned());
         return None;
     }
     Some(&blob.batch_spirv)

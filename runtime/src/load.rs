@@ -71,7 +71,7 @@ impl GpuVtex {
     ) -> Result<Self, RuntimeError> {
         let words = vtex_shaders::pack(file, &options.pack);
         // Not `file.spec`: options such as another address mode need other code.
-        let key = vtex_shaders::spec_key_with(file, &options.pack);
+        let key = vtex_shaders::spec_key(file, &options.pack);
         checked(device, "texture", || {
             let bytes = bytemuck::cast_slice(&words);
             let storage = BufferUsages::STORAGE;

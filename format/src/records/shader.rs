@@ -43,6 +43,7 @@ impl ShaderBlob {
             return None;
         };
         let [abi, text_bytes, word_count, reserved] = words(head);
+        // In 64 bits: the lengths of a damaged head may add up to more than 32.
         let padded_bytes = u64::from(text_bytes).next_multiple_of(4);
         let expected = padded_bytes + 4 * u64::from(word_count);
         if body.len() as u64 != expected {

@@ -1,9 +1,7 @@
 //! A value to the bytes of a file and back.
 
 #[cfg(any(feature = "encode", feature = "decode"))]
-mod codec;
-#[cfg(feature = "decode")]
-mod frame;
+mod canonical;
 #[cfg(any(feature = "encode", feature = "decode"))]
 mod levels;
 #[cfg(any(feature = "encode", feature = "decode"))]
@@ -18,3 +16,5 @@ pub(crate) mod read;
 mod unpack;
 #[cfg(feature = "encode")]
 pub(crate) mod write;
+#[cfg(feature = "decode")]
+mod zstd_frame;

@@ -26,7 +26,7 @@ impl PackedTextures {
             packed.words.extend(vtex_shaders::pack(file, &options.pack));
             // One kernel serves all textures, so it needs what any of them needs. A texture without
             // a feature skips that code by its own words.
-            packed.features |= vtex_shaders::spec_key_with(file, &options.pack).features;
+            packed.features |= vtex_shaders::spec_key(file, &options.pack).features;
         }
         Ok(packed)
     }
