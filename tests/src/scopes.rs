@@ -3,7 +3,6 @@
 //! The evaluators walk lists; the reference here never sees one, so that what encodes trees and
 //! what walks lists are held against each other.
 
-mod blend;
 mod encode;
 mod reference;
 mod tree;

@@ -138,27 +138,6 @@ fn places(oracle: &Oracle, count: usize) -> Vec<[f32; 2]> {
     places
 }
 
-/// Drawings below a folder; those of a chapter with a table are the suite `cases`'s.
-fn svg_files(folder: &Path, found: &mut Vec<PathBuf>) {
-    if folder.join("cases.tsv").exists() {
-        return;
-    }
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        return;
-    };
-    for path in entries.map(|entry| entry.unwrap().path()) {
-        if path.is_dir() && !path.ends_with("hostile") {
-            svg_files(&path, found);
-        } else if path
-            .extension()
-            .is_some_and(|end| end == "svg" || end == "svgz")
-        {
-            found.push(path);
-        }
-    }
-    found.sort();
-}
-
 /// Compares `files`; `(solid ones, lookups further off than rounding explains, report)`.
 fn compare(files: &[PathBuf], resources: &Resources, points: usize) -> (usize, usize, String) {
     let gpu = vtex_tests::gpu::shared();
@@ -207,8 +186,7 @@ fn resources() -> Resources {
 #[test]
 fn own_drawings_look_as_the_painter_paints_them() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/svg");
-    let mut files = Vec::new();
-    svg_files(&folder, &mut files);
+    let files = vtex_testing::corpus::svg_files(&folder);
     let (solid, wrong, _) = compare(&files, &resources(), 20_000);
     assert!(solid >= 25, "only {solid} drawings are solid");
     assert_eq!(wrong, 0);

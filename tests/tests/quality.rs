@@ -60,7 +60,7 @@ fn more_samples_come_nearer_to_the_truth() {
     for name in [
         "paper/peacock.svg",
         "paper/text-27.svg",
-        "painting/stroke-tight-curve.svg",
+        "stroke/tight-curve.svg",
     ] {
         let (svg, file) = drawing(name);
         let reference = Reference::parse(&svg, Arc::default(), Edges::Crisp).unwrap();

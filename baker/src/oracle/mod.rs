@@ -8,6 +8,7 @@ pub(crate) mod gradient;
 mod point;
 mod tree;
 
+pub use blend::blend;
 pub use point::Oracle;
 #[cfg(test)]
 pub(crate) use point::crossing;

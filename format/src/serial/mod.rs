@@ -2,6 +2,8 @@
 
 #[cfg(any(feature = "encode", feature = "decode"))]
 mod canonical;
+#[cfg(all(test, feature = "encode"))]
+mod layout_tests;
 #[cfg(any(feature = "encode", feature = "decode"))]
 mod levels;
 #[cfg(any(feature = "encode", feature = "decode"))]

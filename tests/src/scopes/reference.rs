@@ -1,10 +1,10 @@
 //! What trees are to show: docs/format.md section 3 over the tree itself, in `f64`.
 
+use vtex_baker::oracle::blend;
 use vtex_format::MaskKind;
 use vtex_shaders::record;
 use vtex_testing::srgb;
 
-use super::blend::blend;
 use super::tree::{Clip, Group, Node, Scope};
 use super::{Drawing, TEXELS_PER_CELL, lattice};
 

@@ -5,8 +5,10 @@
 //! run inside tests. The crate depends on nothing, so that every package can use it.
 
 pub mod corpus;
+mod frozen;
 pub mod srgb;
 mod switch;
 
 pub use corpus::Corpus;
+pub use frozen::Frozen;
 pub use switch::{gpu, skip, slow, slow_only};

@@ -1,34 +1,57 @@
 //! Pictures of one drawing: the truth, the twin's and the GPU's from the same lookups.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use vtex_baker::{BakeConfig, Resources, bake};
-use vtex_format::VtexFile;
-use vtex_runtime::BatchQuery;
-use vtex_shaders::cpu;
-use vtex_tests::{fonts, gpu};
+use vtex_format::{Limits, VtexFile, validate};
+use vtex_runtime::Gpu;
+use vtex_tests::fonts;
 use vtex_truth::comparison::EdgeFinder;
 use vtex_truth::picture::{Picture, Shot, View, difference, difference_picture, fit_size};
 use vtex_truth::reference::{Edges, Reference, SUPERSAMPLES};
-use vtex_truth::texture::{FilterMode, Shooter, canvas_options};
+use vtex_truth::texture::FilterMode;
+
+use crate::eyes::{Eyes, queries};
+use crate::lookups;
+use crate::table::Fonts;
 
 /// Pixels of the pictures' longer side.
 const LONGER_PX: u32 = 64;
 /// Samples a pixel: their noise alone leaves 45 dB or so on drawings of this kind.
 const SPP: u32 = 64;
-/// Samples along each side of the truth's pixels where there are filters: resvg takes its time
-/// with those, and what they make is smooth.
+/// Samples along each side of the truth's pixels at zoom 8 where there are filters: resvg's time
+/// grows with the square of the size, for feMorphology with the fourth power. At zoom 1 so few would
+/// cost up to 16 dB.
 const FILTER_SAMPLES: u32 = 6;
 /// The zooms that are compared.
 pub(crate) const ZOOMS: [f64; 2] = [1.0, 8.0];
-/// Largest difference of a channel, linear light, that counts as equal.
-const SAME: f32 = 2.0 / 255.0;
 
 /// What a case came to.
 pub(crate) struct Found {
     pub(crate) file: VtexFile,
+    /// What is wrong with the file's bytes.
+    pub(crate) invalid: Option<String>,
     /// One a zoom.
-    pub(crate) views: Vec<Seen>,
+    pub(crate) views: [Seen; 2],
+    /// The whole canvas from the mips alone.
+    pub(crate) mips: Picture,
+    /// PSNR of that, dB.
+    pub(crate) mips_db: f64,
+    /// How random lookups of GPU and twin differ.
+    pub(crate) strays: Option<String>,
+}
+
+impl Found {
+    /// Writes pictures of all views, and of the mips.
+    pub(crate) fn write(&self, folder: &Path, name: &str) {
+        std::fs::create_dir_all(folder).unwrap();
+        for view in &self.views {
+            view.write(folder, name);
+        }
+        let path = folder.join(format!("{name}.mips.png"));
+        std::fs::write(path, self.mips.to_png().unwrap()).unwrap();
+    }
 }
 
 /// One view of the canvas.
@@ -51,7 +74,6 @@ impl Seen {
 
     /// Writes truth, twin and their difference, fourfold.
     pub(crate) fn write(&self, folder: &Path, name: &str) {
-        std::fs::create_dir_all(folder).unwrap();
         let apart = difference_picture(&self.truth, &self.twin, 4.0);
         let pictures = [
             ("svg", &self.truth),
@@ -65,92 +87,92 @@ impl Seen {
     }
 }
 
-/// Bakes a drawing and looks at it; an error where it does not bake.
-pub(crate) fn look(svg: &[u8]) -> Result<Found, String> {
+/// Bakes a drawing and looks at it, also on `gpu`; an error where it does not bake.
+pub(crate) fn look(svg: &[u8], fonts: Fonts, gpu: Option<&Gpu>) -> Result<Found, String> {
+    let fonts = match fonts {
+        Fonts::Library => fonts::library(),
+        Fonts::None => Arc::default(),
+    };
     let resources = Resources {
-        fonts: fonts::library(),
+        fonts: Arc::clone(&fonts),
         ..Resources::default()
     };
     let file = bake(svg, &BakeConfig::default(), &resources).map_err(|error| error.to_string())?;
-    file.to_bytes().map_err(|error| error.to_string())?;
-    let reference = Reference::parse(svg, fonts::library(), Edges::Crisp)?;
-    let samples = match svg.windows(6).any(|word| word == b"filter") {
+    let bytes = file.to_bytes().map_err(|error| error.to_string())?;
+    let reference = Reference::parse(svg, fonts, Edges::Crisp)?;
+    let close_samples = match svg.windows(6).any(|word| word == b"filter") {
         true => FILTER_SAMPLES,
         false => SUPERSAMPLES,
     };
     let size_px = fit_size(reference.canvas_size(), LONGER_PX);
-    let truth = |view| reference.render_with(view, size_px, samples).unwrap();
-    let finder = EdgeFinder::new(&reference, truth(View::WHOLE));
-    let eyes = Eyes::new(&file);
-    let view = |zoom| {
-        let view = match zoom > 1.0 {
-            true => finder.window(zoom, 0).unwrap(),
-            false => View::WHOLE,
-        };
-        eyes.see(zoom, view, truth(view))
-    };
-    let views = ZOOMS.map(view).into();
-    Ok(Found { file, views })
+    let truth = |view, samples| reference.render_with(view, size_px, samples).unwrap();
+    let whole = truth(View::WHOLE, SUPERSAMPLES);
+    let finder = EdgeFinder::new(&reference, whole.clone());
+    let close = finder.window(ZOOMS[1], 0).unwrap();
+    let eyes = Eyes::new(gpu, &file, FilterMode::Point);
+    let mips = mips(&eyes, size_px);
+    Ok(Found {
+        invalid: invalid(&file, &bytes),
+        mips_db: difference(&whole, &mips).psnr_db,
+        mips,
+        views: [
+            see(&eyes, ZOOMS[0], View::WHOLE, whole),
+            see(&eyes, ZOOMS[1], close, truth(close, close_samples)),
+        ],
+        strays: gpu.and_then(|gpu| lookups::compare(gpu, &file, &eyes).err()),
+        file,
+    })
 }
 
-/// Both evaluators with one texture.
-struct Eyes {
-    words: Vec<u32>,
-    gpu: Option<Shooter>,
-}
-
-impl Eyes {
-    fn new(file: &VtexFile) -> Self {
-        let pack = canvas_options(FilterMode::Point);
-        let shooter = |gpu| Shooter::on_gpu(gpu, file, pack).unwrap();
-        Self {
-            words: vtex_shaders::pack(file, &pack),
-            gpu: gpu::shared().map(shooter),
-        }
+/// What the validator finds, or that the file does not read back as it was.
+fn invalid(file: &VtexFile, bytes: &[u8]) -> Option<String> {
+    let issues = validate(bytes, &Limits::default());
+    if let Some(issue) = issues.first() {
+        return Some(format!("{} issues, the first: {issue}", issues.len()));
     }
-
-    fn see(&self, zoom: f64, view: View, truth: Picture) -> Seen {
-        let shot = Shot {
-            view,
-            size_px: truth.size_px,
-            spp: SPP,
-        };
-        let queries = lookups(shot);
-        let sampler = cpu::Sampler::new(&self.words);
-        let look = |query: &BatchQuery| sampler.sample(query.uv, query.footprint);
-        let colors: Vec<[f32; 4]> = queries.iter().map(look).collect();
-        let twin = picture(shot, &colors);
-        let mut seen = Seen {
-            zoom,
-            psnr_db: vec![difference(&truth, &twin).psnr_db],
-            truth,
-            twin,
-            lookups: queries.len(),
-            apart: 0,
-        };
-        if let Some(Shooter::Gpu { sampler }) = &self.gpu {
-            let answers = sampler.sample(&queries).unwrap();
-            let pairs = colors.iter().zip(&answers);
-            seen.apart = pairs.filter(|(a, b)| !same(a, b)).count();
-            let theirs = picture(shot, &answers);
-            seen.psnr_db.push(difference(&seen.truth, &theirs).psnr_db);
-        }
-        seen
+    match VtexFile::parse(bytes, &Limits::default()) {
+        Ok(again) if again == *file => None,
+        Ok(_) => Some("the file does not read back as it was".to_owned()),
+        Err(error) => Some(error.to_string()),
     }
 }
 
-/// The lookups of a shot as points: cells answer them at every zoom, mips none.
-fn lookups(shot: Shot) -> Vec<BatchQuery> {
-    let [width, height] = shot.size_px;
-    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
-    let point = |query| BatchQuery {
-        footprint: [0.0; 4],
-        ..query
+/// The whole canvas from footprints: at this size they are a texel of mip 0. On the twin alone: the
+/// random lookups compare it with the GPU.
+fn mips(eyes: &Eyes, size_px: [u32; 2]) -> Picture {
+    let shot = Shot {
+        view: View::WHOLE,
+        size_px,
+        spp: SPP,
     };
-    pixels
-        .flat_map(|[x, y]| shot.queries(x, y))
-        .map(point)
-        .collect()
+    picture(shot, &eyes.look_up_twin(&queries(shot)))
+}
+
+/// A view from points: cells answer them at every zoom, mips never.
+fn see(eyes: &Eyes, zoom: f64, view: View, truth: Picture) -> Seen {
+    let shot = Shot {
+        view,
+        size_px: truth.size_px,
+        spp: SPP,
+    };
+    let mut queries = queries(shot);
+    for query in &mut queries {
+        query.footprint = [0.0; 4];
+    }
+    let answers = eyes.look_up(&queries);
+    let twin = picture(shot, &answers.twin);
+    let mut psnr_db = vec![difference(&truth, &twin).psnr_db];
+    if let Some(colors) = &answers.gpu {
+        psnr_db.push(difference(&truth, &picture(shot, colors)).psnr_db);
+    }
+    Seen {
+        zoom,
+        truth,
+        twin,
+        psnr_db,
+        lookups: queries.len(),
+        apart: answers.apart().len(),
+    }
 }
 
 /// The means of each pixel's colours.
@@ -163,9 +185,4 @@ fn picture(shot: Shot, colors: &[[f32; 4]]) -> Picture {
         size_px: shot.size_px,
         pixels: colors.chunks_exact(shot.spp as usize).map(mean).collect(),
     }
-}
-
-/// Never for what is no number.
-fn same(a: &[f32; 4], b: &[f32; 4]) -> bool {
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME)
 }

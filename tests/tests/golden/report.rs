@@ -1,116 +1,85 @@
-//! All cases of a folder.
+//! What all cases came to: the worst, a table of figures, new marks.
 
-#![expect(clippy::print_stdout, reason = "the worst are wanted")]
-
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
-use rayon::prelude::*;
-
-use crate::look::look;
-use crate::table::{self, Expected};
+use crate::table;
 use crate::verdict::Verdict;
 
-/// How many of a chapter's cases are printed.
-const WORST: usize = 5;
+/// How many of the cases are printed.
+const WORST: usize = 20;
 
-/// Runs a chapter.
-///
-/// # Panics
-/// When a case does what its line in the table does not say.
-pub(crate) fn run(chapter: &str) {
-    let folder = crate::root().join(chapter);
-    let wanted = std::env::var("VTEX_FILTER").unwrap_or_default();
-    let mut cases = table::read(&folder);
-    cases.retain(|case| format!("{chapter}/{}", case.name).contains(&wanted));
-    let mut verdicts: Vec<Verdict> = cases
-        .par_iter()
-        .map(|case| judge(case, chapter, &folder))
-        .collect();
-    verdicts.sort_by(|a, b| a.margin_db.total_cmp(&b.margin_db));
-    print_worst(chapter, &verdicts);
-    report(chapter, &verdicts);
-    if std::env::var_os("VTEX_MARKS").is_some_and(|value| value == "write") {
-        let marks = verdicts
-            .iter()
-            .map(|verdict| (verdict.name.as_str(), verdict.failed_names()));
-        table::write_marks(&folder, &marks.collect());
-        return;
-    }
-    let wrong: Vec<String> = verdicts
-        .iter()
-        .filter(|verdict| !verdict.surprises.is_empty())
-        .map(|verdict| {
-            format!(
-                "{chapter}/{}: {}",
-                verdict.name,
-                verdict.surprises.join("; ")
-            )
-        })
-        .collect();
-    assert!(
-        wrong.is_empty(),
-        "{} of {} cases are not as {} says:\n{}\npictures: {}",
-        wrong.len(),
-        verdicts.len(),
-        table::FILE,
-        wrong.join("\n"),
-        pictures(chapter).display()
-    );
+/// Verdicts of the cases that ran, in any order.
+#[derive(Debug, Default)]
+pub(crate) struct Report {
+    verdicts: Mutex<Vec<Verdict>>,
 }
 
-fn judge(case: &Expected, chapter: &str, folder: &Path) -> Verdict {
-    let svg = std::fs::read(folder.join(format!("{}.svg", case.name))).unwrap();
-    let found = look(&svg);
-    let verdict = Verdict::new(case, found.as_ref().map_err(String::as_str));
-    let all = std::env::var_os("VTEX_PICTURES").is_some_and(|value| value == "1");
-    if let (true, Ok(found)) = (all || !verdict.surprises.is_empty(), &found) {
-        for view in &found.views {
-            view.write(&pictures(chapter), &case.name);
+impl Report {
+    pub(crate) fn add(&self, verdict: Verdict) {
+        self.verdicts.lock().unwrap().push(verdict);
+    }
+
+    /// After all cases: prints the worst, and writes what the environment asks for.
+    pub(crate) fn finish(&self, root: &Path) {
+        let mut verdicts = self.verdicts.lock().unwrap();
+        verdicts.sort_by(|a, b| a.margin_db.total_cmp(&b.margin_db));
+        print_worst(&verdicts);
+        if let Some(folder) = std::env::var_os("VTEX_REPORT") {
+            std::fs::write(Path::new(&folder).join("golden.tsv"), figures(&verdicts)).unwrap();
+        }
+        if std::env::var_os("VTEX_MARKS").is_some_and(|value| value == "write") {
+            write_marks(root, &verdicts);
         }
     }
-    verdict
+}
+
+/// Whether pictures of all cases are wanted, and not only of those that fail.
+pub(crate) fn all_pictures() -> bool {
+    std::env::var_os("VTEX_PICTURES").is_some_and(|value| value == "1")
 }
 
 /// Where pictures of a chapter are written.
-fn pictures(chapter: &str) -> PathBuf {
-    Path::new(env!("CARGO_TARGET_TMPDIR"))
-        .join("cases")
-        .join(chapter)
+pub(crate) fn pictures(chapter: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    folder.join("golden").join(chapter)
 }
 
-fn print_worst(chapter: &str, verdicts: &[Verdict]) {
-    let mut text = format!("{chapter}: {} cases, the worst\n", verdicts.len());
-    for verdict in verdicts.iter().take(WORST) {
-        // Writing to a String does not fail.
-        let _ = writeln!(text, "  {}", verdict.line());
-    }
-    print!("{text}");
-}
-
-/// Every figure, in the folder that `VTEX_REPORT` names.
-fn report(chapter: &str, verdicts: &[Verdict]) {
-    let Some(folder) = std::env::var_os("VTEX_REPORT") else {
+/// Nothing for a single case, whose failure says it all.
+#[expect(clippy::print_stdout, reason = "the figures are wanted")]
+fn print_worst(verdicts: &[Verdict]) {
+    if verdicts.len() < 2 {
         return;
-    };
-    let mut text = String::from("case\t1x\t8x\tfailed\n");
-    for verdict in verdicts {
-        let db: Vec<String> = verdict
-            .psnr_db
-            .iter()
-            .map(|db| format!("{db:.2}"))
-            .collect();
-        let _ = writeln!(
-            text,
-            "{}\t{}\t{}",
-            verdict.name,
-            db.join("\t"),
-            verdict.failed_names()
-        );
     }
-    std::fs::write(
-        Path::new(&folder).join(format!("cases-{chapter}.tsv")),
-        text,
-    )
-    .unwrap();
+    println!(
+        "nearest to their bounds of {} cases, dB at 1x, 8x, mips:",
+        verdicts.len()
+    );
+    for verdict in verdicts.iter().take(WORST) {
+        println!("  {}", verdict.line());
+    }
+}
+
+fn figures(verdicts: &[Verdict]) -> String {
+    let mut text = String::from("chapter\tcase\t1x\t8x\tmips\tfailed\n");
+    for verdict in verdicts {
+        let db = verdict.psnr_db.map(|db| format!("{db:.2}")).join("\t");
+        let (chapter, name, failed) = (&verdict.chapter, &verdict.name, verdict.failed_names());
+        // Writing to a String does not fail.
+        let _ = writeln!(text, "{chapter}\t{name}\t{db}\t{failed}");
+    }
+    text
+}
+
+fn write_marks(root: &Path, verdicts: &[Verdict]) {
+    let mut chapters: BTreeMap<&str, BTreeMap<&str, String>> = BTreeMap::new();
+    for verdict in verdicts {
+        let marks = chapters.entry(&verdict.chapter).or_default();
+        marks.insert(&verdict.name, verdict.failed_names());
+    }
+    for (chapter, failed) in &chapters {
+        table::write_marks(&root.join(chapter), failed);
+    }
 }

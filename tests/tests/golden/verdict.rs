@@ -12,13 +12,17 @@ const APART_SHARE: f64 = 1e-4;
 /// What a case is checked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Check {
-    /// It bakes, to a valid file.
+    /// It bakes.
     Bake,
+    /// The file is valid and reads back as it was.
+    File,
     /// The whole canvas against the truth.
     At1x,
     /// A window at zoom 8.
     At8x,
-    /// The GPU gives the twin's answers.
+    /// The mips alone, in their place on the canvas.
+    Mips,
+    /// The GPU gives the twin's answers, to the pictures' lookups and to random ones.
     Gpu,
     /// The warnings are those expected.
     Warnings,
@@ -27,10 +31,12 @@ pub(crate) enum Check {
 }
 
 impl Check {
-    const ALL: [(&'static str, Self); 6] = [
+    const ALL: [(&'static str, Self); 8] = [
         ("bake", Self::Bake),
+        ("file", Self::File),
         ("1x", Self::At1x),
         ("8x", Self::At8x),
+        ("mips", Self::Mips),
         ("gpu", Self::Gpu),
         ("warnings", Self::Warnings),
         ("patch", Self::Patch),
@@ -50,11 +56,13 @@ impl Check {
 }
 
 /// Outcome of a case.
+#[derive(Debug)]
 pub(crate) struct Verdict {
+    pub(crate) chapter: String,
     pub(crate) name: String,
-    /// PSNR at each zoom, dB; empty when it does not bake.
-    pub(crate) psnr_db: Vec<f64>,
-    /// How far above its bars the worse zoom is, dB.
+    /// PSNR at each zoom and of the mips, dB; NaN when it does not bake.
+    pub(crate) psnr_db: [f64; 3],
+    /// How far above its bounds the worst of them is, dB.
     pub(crate) margin_db: f64,
     /// Checks that failed, with what was found.
     failed: BTreeMap<Check, String>,
@@ -63,23 +71,25 @@ pub(crate) struct Verdict {
 }
 
 impl Verdict {
-    pub(crate) fn new(expected: &Expected, found: Result<&Found, &str>) -> Self {
+    pub(crate) fn new(chapter: &str, expected: &Expected, found: Result<&Found, &str>) -> Self {
         let mut failed = BTreeMap::new();
-        let mut psnr_db = Vec::new();
+        let mut psnr_db = [f64::NAN; 3];
         let mut margin_db = f64::NEG_INFINITY;
         match found {
             Err(why) => _ = failed.insert(Check::Bake, why.to_owned()),
             Ok(found) => {
-                psnr_db = found.views.iter().map(|view| view.least_db()).collect();
+                let [whole, close] = &found.views;
+                psnr_db = [whole.least_db(), close.least_db(), found.mips_db];
                 let margins = psnr_db.iter().zip(expected.least_db);
                 margin_db = margins
                     .map(|(db, bar)| db - bar)
                     .fold(f64::INFINITY, f64::min);
-                failures(expected, found, &mut failed);
+                failed = failures(expected, found, psnr_db);
             }
         }
         let surprises = surprises(expected, &failed);
         Self {
+            chapter: chapter.to_owned(),
             name: expected.name.clone(),
             psnr_db,
             margin_db,
@@ -97,20 +107,30 @@ impl Verdict {
         }
     }
 
-    /// `name  45.1  43.0  failed checks`.
+    /// `chapter::name  45.1  43.0  44.2  failed checks`.
     pub(crate) fn line(&self) -> String {
-        let db: Vec<String> = self.psnr_db.iter().map(|db| format!("{db:5.1}")).collect();
-        format!("{:28} {}  {}", self.name, db.join(" "), self.failed_names())
+        let name = format!("{}::{}", self.chapter, self.name);
+        let db = self.psnr_db.map(|db| format!("{db:5.1}")).join(" ");
+        format!("{name:40} {db}  {}", self.failed_names())
     }
 }
 
-fn failures(expected: &Expected, found: &Found, failed: &mut BTreeMap<Check, String>) {
-    let checks = [Check::At1x, Check::At8x];
-    for ((view, least), check) in found.views.iter().zip(expected.least_db).zip(checks) {
-        let reached = view.least_db() >= least;
+/// Checks that failed, with what was found.
+fn failures(expected: &Expected, found: &Found, psnr_db: [f64; 3]) -> BTreeMap<Check, String> {
+    let mut failed = BTreeMap::new();
+    if let Some(why) = &found.invalid {
+        failed.insert(Check::File, why.clone());
+    }
+    let checks = [Check::At1x, Check::At8x, Check::Mips];
+    for ((db, least), check) in psnr_db.into_iter().zip(expected.least_db).zip(checks) {
+        // Not `db < least`, which is false for NaN.
+        let reached = db >= least;
         if !reached {
-            failed.insert(check, format!("{:.1} dB, below {least}", view.least_db()));
+            failed.insert(check, format!("{db:.1} dB, below {least}"));
         }
+    }
+    if let Some(why) = &found.strays {
+        failed.insert(Check::Gpu, why.clone());
     }
     let apart: usize = found.views.iter().map(|view| view.apart).sum();
     let lookups: usize = found.views.iter().map(|view| view.lookups).sum();
@@ -132,6 +152,7 @@ fn failures(expected: &Expected, found: &Found, failed: &mut BTreeMap<Check, Str
     if (patches > 0) != expected.patch {
         failed.insert(Check::Patch, format!("{patches} patches"));
     }
+    failed
 }
 
 fn surprises(expected: &Expected, failed: &BTreeMap<Check, String>) -> Vec<String> {
