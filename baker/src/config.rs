@@ -101,19 +101,19 @@ impl BakeConfig {
         let rules = [
             (
                 (1..=8192).contains(&self.mip0_size),
-                "mip 0 size must lie in 1..=8192 texels",
+                "mip 0 size must lie between 1 and 8192 texels",
             ),
             (
                 (16..=8192).contains(&self.msdf_size),
-                "MSDF size must lie in 16..=8192 texels",
+                "MSDF size must lie between 16 and 8192 texels",
             ),
             (
                 (1.0..=64.0).contains(&self.distance_range_texels),
-                "distance range must lie in 1..=64 texels",
+                "distance range must lie between 1 and 64 texels",
             ),
             (
                 (1.0..=4096.0).contains(&self.max_zoom),
-                "maximum zoom must lie in 1..=4096",
+                "maximum zoom must lie between 1 and 4096",
             ),
             (
                 self.error_px > 0.0 && self.error_px.is_finite(),
@@ -129,11 +129,11 @@ impl BakeConfig {
             ),
             (
                 unit(self.fill_color),
-                "fill colour channels must lie in 0..=1",
+                "fill colour channels must lie between 0 and 1",
             ),
             (
                 unit(self.stroke_color),
-                "stroke colour channels must lie in 0..=1",
+                "stroke colour channels must lie between 0 and 1",
             ),
             (
                 self.texture_matrix.iter().all(|v| v.is_finite()) && a * d - b * c != 0.0,

@@ -15,7 +15,7 @@
 //! ```
 //! use vtex_format::{CellWord, Grid, Limits, Meta, PaintRecord, SpecKey, VtexFile};
 //!
-//! let red = CellWord::Solid { paint: 0 };
+//! let red = CellWord::Paint { paint: 0 };
 //! let mut file = VtexFile {
 //!     paints: vec![PaintRecord::solid([1.0, 0.0, 0.0, 1.0])],
 //!     cells: vec![red.encode().expect("0 fits 30 bits")],
@@ -52,14 +52,14 @@ mod file;
 mod records;
 mod serial;
 
+pub use cells::blocks::{
+    Block, ListFault, ListFaultKind, MAX_FRAMES, MaskBlock, jump_target, list_blocks, list_frames,
+};
 pub use cells::cell::{
     CELL_TAG_SHIFT, CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL, MAX_INDEXED, MAX_ITEMS,
     MAX_LIST_ITEMS,
 };
 pub use cells::control::{BlendMode, MaskKind, OPEN_ISOLATED};
-pub use cells::scope::{
-    Block, ListFault, ListFaultKind, MAX_FRAMES, MaskBlock, jump_target, list_blocks, list_frames,
-};
 pub use container::directory::{Directory, directory};
 pub use container::error::{ReadError, WriteError};
 pub use container::issue::{Fault, ISSUES, Issue, IssueKind};
@@ -68,8 +68,10 @@ pub use container::limits::Limits;
 pub use container::section::{Codec, SectionInfo};
 pub use container::tag::Tag;
 pub use curves::cut;
-pub use curves::source::{CurveSources, SourceError, SourceOutline, SourceRecord, SourceSegment};
-pub use file::spec::{Features, SHADER_ABI, SpecKey, SpecParts};
+pub use curves::outlines::{
+    OutlineError, RecordParts, StoredOutline, StoredOutlines, StoredSegment,
+};
+pub use file::spec::{Features, SHADER_ABI, SpecKey};
 pub use file::texture::VtexFile;
 pub use records::curve::{
     CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CurveHeader, CurveLattice,
@@ -79,12 +81,11 @@ pub use records::gradient::{Gradient, GradientShape, GradientStop, MAX_GRADIENT_
 pub use records::image::{Image, MAX_IMAGE_SIDE, MAX_MIPS};
 pub use records::layer::LayerRecord;
 pub use records::meta::{
-    AddressMode, Grid, MAX_GRID_SIDE, MAX_TEXELS_PER_CELL, Meta, Outline, SamplerSettings,
+    AddressMode, DistanceOutline, Grid, MAX_GRID_SIDE, MAX_TEXELS_PER_CELL, Meta, SamplerSettings,
 };
 pub use records::paint::{PAINT_LINEAR, PAINT_RADIAL, PAINT_SOLID, PaintRecord};
 pub use records::prov::{
-    EMBEDDED_SOURCE, FieldError, Finding, Preparation, Provenance, ShapeReport, Warning,
-    WarningCode,
+    EMBEDDED_SOURCE, Finding, MsdfError, Preparation, Provenance, ShapeReport, Warning, WarningCode,
 };
 pub use records::shader::ShaderBlob;
 pub use records::shape::{

@@ -78,12 +78,14 @@ impl BatchSampler {
         trust: Trust,
     ) -> Result<Self, RuntimeError> {
         let words = vtex_shaders::pack(file, &options.pack);
+        // The upload has error scopes of its own: a texture too large for the device is the
+        // caller's affair, while a kernel that does not compile is ours or the driver's.
         let words = checked(device, "texture", || {
             let bytes = bytemuck::cast_slice(&words);
             filled_buffer(device, queue, "vtex texture", bytes, BufferUsages::STORAGE)
         })
         .await?;
-        let key = vtex_shaders::spec_key_with(file, &options.pack);
+        let key = vtex_shaders::spec_key(file, &options.pack);
         let mut notices = Vec::new();
         let stored = match trusted_spirv(file, &key, trust, &mut notices) {
             Some(spirv) => stored_kernel(device, spirv, &mut notices).await,
@@ -123,6 +125,8 @@ impl BatchSampler {
         queries: &[BatchQuery],
     ) -> Result<Vec<[f32; 4]>, RuntimeError> {
         let mut colors = Vec::with_capacity(queries.len());
+        // One chunk at a time: memory on the device stays that of one chunk, at the price of a wait
+        // between chunks.
         for chunk in queries.chunks(CHUNK) {
             colors.extend(self.sample_chunk(chunk).await?);
         }
@@ -137,6 +141,7 @@ impl BatchSampler {
             let storage = BufferUsages::STORAGE;
             let input = filled_buffer(device, queue, "vtex queries", bytes, storage)?;
             let usage = storage | BufferUsages::COPY_SRC;
+            // Not padded as `input` may be: its length tells the kernel where the queries end.
             let output = empty_buffer(device, "vtex colours", size, usage)?;
             let group = self.bind(&input, &output);
             self.dispatch(&group, queries.len());
@@ -192,6 +197,7 @@ fn trusted_spirv<'a>(
     notices: &mut Vec<String>,
 ) -> Option<&'a [u32]> {
     let blob = &file.shader;
+    // First: text of another ABI differs from ours by right, which would look like tampering.
     if blob.abi != SHADER_ABI {
         notices.push(format!(
             "the file's shader is of ABI {}, this runtime's is {SHADER_ABI}: using our own",
@@ -199,6 +205,7 @@ fn trusted_spirv<'a>(
         ));
         return None;
     }
+    // The key of the file, not `key`: the caller's options change ours, never what was stored.
     let ours = vtex_shaders::fragment(&file.spec, BindingSlot::default());
     if ours != blob.wgsl_fragment {
         let used = match trust {
@@ -213,7 +220,7 @@ fn trusted_spirv<'a>(
         return None;
     }
     if *key != file.spec {
-        notices.push("load options change the shader key: using our own shader".to_owned());
+        notices.push("load options change the spec key: using our own shader".to_owned());
         return None;
     }
     Some(&blob.batch_spirv)
@@ -263,6 +270,8 @@ fn pipeline(device: &Device, source: ShaderSource<'_>) -> ComputePipeline {
         label: Some("vtex batch"),
         source,
     });
+    // Written out, not derived from the shader: a derived layout leaves out what a kernel does not
+    // read, and a kernel from a file may read less than we bind.
     let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::COMPUTE,

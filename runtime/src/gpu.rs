@@ -47,6 +47,7 @@ impl Gpu {
     /// [`RuntimeError::Device`] when the adapter offers less than core WebGPU.
     pub async fn headless_async() -> Result<Self, RuntimeError> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+        // On wasm32 this is always an error, and so the browser's choice.
         let wanted = std::env::var(ADAPTER_VARIABLE).ok();
         let adapter = match wanted.as_deref().filter(|name| !name.is_empty()) {
             Some(name) => named_adapter(&instance, name).await?,
@@ -56,7 +57,9 @@ impl Gpu {
         let (device, queue) = adapter
             .request_device(&wgpu::DeviceDescriptor {
                 label: Some("vtex"),
+                // A device refuses features that its adapter lacks, so ask for no more.
                 required_features: adapter.features() & optional,
+                // Not the adapter's own limits: what runs here then runs on every device.
                 required_limits: wgpu::Limits::defaults(),
                 ..Default::default()
             })
@@ -107,6 +110,7 @@ async fn named_adapter(
     let adapters = instance.enumerate_adapters(wgpu::Backends::all()).await;
     let names: Vec<String> = adapters.iter().map(|a| a.get_info().name).collect();
     let wanted = name.to_lowercase();
+    // One card is listed once for each back-end that sees it; the first one in wgpu's order serves.
     adapters
         .into_iter()
         .find(|adapter| adapter.get_info().name.to_lowercase().contains(&wanted))

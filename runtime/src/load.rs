@@ -70,7 +70,8 @@ impl GpuVtex {
         options: &LoadOptions,
     ) -> Result<Self, RuntimeError> {
         let words = vtex_shaders::pack(file, &options.pack);
-        let key = vtex_shaders::spec_key_with(file, &options.pack);
+        // Not `file.spec`: options such as another address mode need other code.
+        let key = vtex_shaders::spec_key(file, &options.pack);
         checked(device, "texture", || {
             let bytes = bytemuck::cast_slice(&words);
             let storage = BufferUsages::STORAGE;
@@ -138,6 +139,7 @@ fn texture_layout(device: &Device) -> BindGroupLayout {
             ty: wgpu::BindingType::Buffer {
                 ty: wgpu::BufferBindingType::Storage { read_only: true },
                 has_dynamic_offset: false,
+                // wgpu compares at each draw instead: the shader is the caller's.
                 min_binding_size: None,
             },
             count: None,

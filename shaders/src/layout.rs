@@ -368,7 +368,7 @@ mod tests {
 
     #[test]
     fn cells_decode_as_the_format_encodes_them() {
-        let word = CellWord::Solid { paint: 5 }.encode().unwrap();
+        let word = CellWord::Paint { paint: 5 }.encode().unwrap();
         assert_eq!(
             (word >> cell::TAG_SHIFT, word & cell::PAYLOAD_MASK),
             (cell::SOLID, 5)

@@ -6,9 +6,9 @@
 //!
 //! ```
 //! use vtex_shaders::{BindingSlot, fragment};
-//! # use vtex_format::{Features, SHADER_ABI, SpecKey};
-//! # let key = SpecKey { abi: SHADER_ABI, features: Features::LISTS | Features::MSDF, address_u: 0,
-//! #     address_v: 0, texels_per_cell: 8, max_entries: 4, frames: 0, reserved: 0 };
+//! # use vtex_format::{Features, SpecKey};
+//! # let features = Features::LISTS | Features::MSDF;
+//! # let key = SpecKey { features, texels_per_cell: 8, max_entries: 4, ..SpecKey::default() };
 //! let text = fragment(&key, BindingSlot { group: 2, binding: 0 });
 //! assert!(text.contains("fn vtex_sample(uv: vec2f, footprint: vec4f) -> vec4f"));
 //! assert!(!text.contains("vtex_image_"), "no code for what the file does not hold");
@@ -27,13 +27,14 @@ mod refine;
 mod sources;
 mod spec;
 mod specialize;
+pub mod srgb;
 
 pub use layout::{BatchQuery, FilterMode};
 pub use link::{LinkContext, LinkError, link};
 pub use pack::{PackOptions, pack};
 #[cfg(feature = "precompile")]
 pub use precompile::{PrecompileError, shader_blob, spirv};
-pub use spec::{SpecParts, spec_key, spec_key_from_parts, spec_key_with};
+pub use spec::spec_key;
 pub use specialize::{
     BATCH_WORKGROUP, BindingSlot, batch_dispatch, batch_kernel, fragment, scene_context,
     scene_evaluator,

@@ -100,6 +100,7 @@ impl<'a> Linker<'a> {
         if self.done.contains(module.name) {
             return Ok(());
         }
+        // `open` is the path from the root to here: a name that is on it imports itself.
         if let Some(start) = self.open.iter().position(|name| *name == module.name) {
             let cycle = self.open[start..].iter().chain([&module.name]);
             return Err(LinkError::Cycle(cycle.map(|&name| name.into()).collect()));
@@ -118,6 +119,8 @@ impl<'a> Linker<'a> {
 
     fn write(&mut self, name: &str, body: &str) {
         let gap = if self.out.is_empty() { "" } else { "\n" };
+        // A checkout with CR LF must link the same text: loaders compare its hash with that of the
+        // text in a file.
         let body: Cow<'_, str> = match body.contains('\r') {
             true => body.replace('\r', "").into(),
             false => body.into(),

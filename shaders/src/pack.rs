@@ -9,7 +9,7 @@ use vtex_format::{
 use crate::cpu::{color, to_f32};
 use crate::layout::{FilterMode, OFFSET_END, gradient, header, image, paint};
 use crate::refine::refine;
-use crate::spec::spec_key_with;
+use crate::spec::spec_key;
 
 /// Evaluators read four words at a time.
 const GROUP_WORDS: usize = 4;
@@ -46,10 +46,10 @@ impl PackOptions {
 /// The words of `file`, laid out as [`header`] says, with every offset relative to the first. Their
 /// number is a multiple of four, as is to be the index of the first in a larger buffer.
 ///
-/// The words go with the text of [`spec_key_with`] of the same file and options. `file` is to be
+/// The words go with the text of [`spec_key`] of the same file and options. `file` is to be
 /// one that the format's validator finds nothing in; another gives a wrong picture, never a panic.
 pub fn pack(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
-    let key = spec_key_with(file, options);
+    let key = spec_key(file, options);
     let distances = key.features & (Features::RAMPS | Features::OUTLINE) != 0;
     let refined = refine(file, distances, options.halvings);
     let mut words = header_words(file, options, &key);

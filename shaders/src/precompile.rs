@@ -39,9 +39,11 @@ pub fn spirv(wgsl: &str) -> Result<Vec<u32>, PrecompileError> {
         .map_err(|error| PrecompileError::Invalid(error.emit_to_string(wgsl)))?;
     let options = spv::Options {
         lang_version: SPIRV_VERSION,
+        // The flags are for debug names and for vertex and fragment stages; a kernel needs none.
         flags: spv::WriterFlags::empty(),
         ..spv::Options::default()
     };
+    // Without a choice of an entry point: the kernel has only one.
     spv::write_vec(&module, &info, &options, None)
         .map_err(|error| PrecompileError::Write(error.to_string()))
 }
@@ -62,15 +64,15 @@ pub fn shader_blob(key: &SpecKey) -> Result<ShaderBlob, PrecompileError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vtex_format::Features;
+    use vtex_format::{AddressMode, Features};
 
     #[test]
     fn kernels_compile_to_the_same_words_twice() {
         let key = SpecKey {
             abi: SHADER_ABI,
             features: Features::ALL & !Features::MASK,
-            address_u: 1,
-            address_v: 3,
+            address_u: AddressMode::Repeat,
+            address_v: AddressMode::Border,
             texels_per_cell: 8,
             max_entries: 40,
             frames: 0,

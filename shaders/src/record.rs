@@ -1,5 +1,5 @@
-//! Winding and distance from a curve record as a file stores it (docs/format.md 2.13): what
-//! evaluators, which read items made from records, are held against.
+//! Winding and distance from a curve record as a file stores it (docs/format.md 2.13). Tests compare
+//! evaluators with it, which read items made from records.
 //!
 //! `record` below starts at the first word of what [`vtex_format::CurveHeader`] describes and may
 //! be longer; words that are missing count as segments that are not there. `p` is in units of the
@@ -43,6 +43,7 @@ fn parts(record: &[u32]) -> Parts<'_> {
 }
 
 fn split(words: &[u32], at: usize) -> (&[u32], &[u32]) {
+    // A record that breaks off has fewer segments, not other ones.
     words.split_at(at.min(words.len()))
 }
 
@@ -54,6 +55,7 @@ fn direction(index: usize, down: usize) -> i32 {
 fn left_winding(parts: &Parts<'_>, p: Vec2) -> i32 {
     let mut winding = parts.base;
     for &step in parts.steps {
+        // Half open as the segments are: a step counts from its own height on.
         // The low half is y, the high half the signed change.
         if point(step)[0] <= p[1] {
             winding += step.cast_signed() >> 16;
@@ -182,6 +184,7 @@ fn quad_distance_squared(a: Vec2, c: Vec2, b: Vec2) -> f32 {
         } else {
             2.0 * slope_squared
         };
+        // The bound keeps the quotient finite where the curve stands still.
         t = (t - first / convex.max(1e-6)).clamp(0.0, 1.0);
     }
     let (v, _) = quad_at(a, b1, c2, t);

@@ -56,7 +56,7 @@ pub(crate) fn refine(file: &VtexFile, distances: bool, halvings: Option<u32>) ->
                 build.shared.clear();
                 build.list(&list_of(file, offset_words), &whole, at, depth);
             }
-            Some(CellWord::Solid { paint }) => {
+            Some(CellWord::Paint { paint }) => {
                 build.fill(at, depth, cell::SOLID << cell::TAG_SHIFT | paint);
             }
             _ => {}

@@ -43,6 +43,7 @@ pub fn batch_kernel(key: &SpecKey) -> String {
 /// Workgroup counts for `query_count` queries of the batch kernel.
 pub fn batch_dispatch(query_count: u32) -> [u32; 3] {
     let groups = query_count.div_ceil(BATCH_WORKGROUP);
+    // Rows as equal as they can be: fewer workgroups stand idle than there are rows.
     let rows = groups.div_ceil(MAX_WORKGROUPS);
     let columns = if rows == 0 { 0 } else { groups.div_ceil(rows) };
     [columns, rows, u32::from(rows != 0)]
@@ -61,9 +62,11 @@ pub fn scene_context(features: u32, slot: BindingSlot) -> LinkContext {
     let key = normalized(&SpecKey {
         abi: 0,
         features,
-        address_u: AddressMode::Border as u32,
-        address_v: AddressMode::Border as u32,
+        // Not in the text of a scene, which reads them from the header of each texture.
+        address_u: AddressMode::Border,
+        address_v: AddressMode::Border,
         texels_per_cell: 1,
+        // The bounds of any file: one text serves textures that are not known yet.
         max_entries: MAX_ENTRIES_PER_CELL,
         frames: MAX_FRAMES,
         reserved: 0,
@@ -96,12 +99,13 @@ pub fn scene_context(features: u32, slot: BindingSlot) -> LinkContext {
 
 fn single_context(key: &SpecKey, slot: BindingSlot) -> LinkContext {
     let key = normalized(key);
-    let clamps = [key.address_u, key.address_v] == [AddressMode::Clamp as u32; 2];
+    // The default, which needs no choice between modes.
+    let clamps = [key.address_u, key.address_v] == [AddressMode::Clamp; 2];
     let mut text = binding(slot);
     for (name, value) in [
         ("FEATURES", key.features),
-        ("ADDRESS_U", key.address_u),
-        ("ADDRESS_V", key.address_v),
+        ("ADDRESS_U", key.address_u as u32),
+        ("ADDRESS_V", key.address_v as u32),
         ("TEXELS_PER_CELL", key.texels_per_cell),
         ("MAX_ENTRIES", key.max_entries),
         ("FRAMES", key.frames),
@@ -326,8 +330,8 @@ mod tests {
         (0..=Features::ALL).step_by(5).map(|features| SpecKey {
             abi: vtex_format::SHADER_ABI,
             features,
-            address_u: features & 3,
-            address_v: (features >> 2) & 3,
+            address_u: AddressMode::ALL[(features & 3) as usize],
+            address_v: AddressMode::ALL[(features >> 2 & 3) as usize],
             texels_per_cell: 1 + features % 16,
             max_entries: features,
             frames: 0,

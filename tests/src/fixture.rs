@@ -1,19 +1,13 @@
 //! Random textures: every feature a packed texture can have, without a baker.
 
 use vtex_format::{
-    AddressMode, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CellWord, CurveHeader, CurveLattice, Entry,
-    EntryKind, Features, Gradient, GradientShape, GradientStop, Grid, Image, Meta, Outline,
-    PaintRecord, SamplerSettings, Spread, VtexFile,
+    AddressMode, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CellWord, CurveHeader, CurveLattice,
+    DistanceOutline, Entry, EntryKind, Features, Gradient, GradientShape, GradientStop, Grid,
+    Image, Meta, PaintRecord, SamplerSettings, SpecKey, Spread, VtexFile,
 };
 
 use crate::random::Random;
 
-const ADDRESS_MODES: [AddressMode; 4] = [
-    AddressMode::Clamp,
-    AddressMode::Repeat,
-    AddressMode::Mirror,
-    AddressMode::Border,
-];
 const DISTANCE_RANGE_TEXELS: f32 = 4.0;
 const PAINTS: u32 = 12;
 /// Those of them that are solid where some are gradients.
@@ -53,6 +47,7 @@ pub fn random_texture(seed: u64, features: u32) -> VtexFile {
     }
     let mut records = Vec::new();
     if has(Features::MIPS) {
+        file.spec.features |= Features::MIPS;
         file.images
             .push(random_image(r, [0.0, 0.0, 1.0, 1.0], [61, 33]));
     }
@@ -77,7 +72,7 @@ pub fn random_texture(seed: u64, features: u32) -> VtexFile {
         let cell = random_cell(r, &mut file, features, &records);
         file.cells.push(cell.encode().expect("small indices"));
     }
-    file.spec = vtex_shaders::spec_key(&file);
+    file.spec = SpecKey::for_file(&file);
     file
 }
 
@@ -100,10 +95,10 @@ fn random_grid(r: &mut Random) -> Grid {
 fn random_settings(r: &mut Random, features: u32) -> SamplerSettings {
     let has = |feature| features & feature != 0;
     let mut settings = SamplerSettings {
-        address: [(); 2].map(|()| ADDRESS_MODES[r.below(4) as usize]),
+        address: [(); 2].map(|()| AddressMode::ALL[r.below(4) as usize]),
         smoothing: r.between(0.02, 0.3),
         mask: has(Features::MASK),
-        outline: has(Features::OUTLINE).then(|| Outline {
+        outline: has(Features::OUTLINE).then(|| DistanceOutline {
             width_texels: r.between(0.2, 1.2),
             paint: r.below(if has(Features::GRADIENTS) {
                 SOLIDS
@@ -270,7 +265,7 @@ fn random_cell(r: &mut Random, file: &mut VtexFile, features: u32, records: &[u3
     match r.below(6) {
         0 => return CellWord::Empty,
         1 => {
-            return CellWord::Solid {
+            return CellWord::Paint {
                 paint: r.below(PAINTS),
             };
         }

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use naga::{Expression, Literal, Module, TypeInner};
-use vtex_format::{Features, SHADER_ABI, SpecKey};
+use vtex_format::{AddressMode, Features, SHADER_ABI, SpecKey};
 use vtex_shaders::layout::{BATCH_QUERY, CONSTANTS, RecordLayout};
 use vtex_shaders::{BindingSlot, batch_kernel, scene_evaluator};
 
@@ -12,8 +12,8 @@ fn key(features: u32) -> SpecKey {
     SpecKey {
         abi: SHADER_ABI,
         features,
-        address_u: 1,
-        address_v: 2,
+        address_u: AddressMode::Repeat,
+        address_v: AddressMode::Mirror,
         texels_per_cell: 8,
         max_entries: 5,
         frames: 0,

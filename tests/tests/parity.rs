@@ -4,11 +4,11 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 use vtex_baker::{BakeConfig, Resources, bake};
-use vtex_format::{Features, Outline, SpecKey, VtexFile};
+use vtex_format::{DistanceOutline, Features, SpecKey, VtexFile};
 use vtex_shaders::cpu::Sampler;
 use vtex_shaders::{
     BatchQuery, BindingSlot, FilterMode, PackOptions, batch_kernel, link, pack, scene_context,
-    shader_blob, spec_key, spec_key_with,
+    shader_blob, spec_key,
 };
 use vtex_tests::fixture::random_texture;
 use vtex_tests::gpu::Gpu;
@@ -174,7 +174,7 @@ fn check_file(gpu: &Gpu, name: &str, file: &VtexFile, lookups: &Lookups) {
             filter,
             ..PackOptions::default()
         };
-        let text = batch_kernel(&spec_key_with(file, &options));
+        let text = batch_kernel(&spec_key(file, &options));
         let kernel = gpu.kernel(wgpu::ShaderSource::Wgsl(Cow::Owned(text)));
         let words = pack(file, &options);
         let queries = random_queries(u64::from(count), count, lookups.margin);
@@ -199,7 +199,7 @@ fn twin_and_gpu_agree() {
         };
         let file = random_texture(index, features);
         assert_eq!(
-            spec_key(&file).features & features,
+            SpecKey::for_file(&file).features & features,
             features,
             "{name} has what it names"
         );
@@ -257,7 +257,7 @@ fn scoped_files() -> Vec<(String, VtexFile)> {
         let mut mask = plain.clone();
         mask.meta.sampler.mask = true;
         let mut outlined = plain.clone();
-        outlined.meta.sampler.outline = Some(Outline {
+        outlined.meta.sampler.outline = Some(DistanceOutline {
             width_texels: 0.3,
             paint: 1,
         });
@@ -287,7 +287,7 @@ fn twin_and_gpu_agree_on_clips_and_groups() {
 fn the_spirv_in_a_file_is_the_same_kernel() {
     let Some(gpu) = Gpu::open() else { return };
     let file = random_texture(77, Features::ALL & !Features::MASK);
-    let key = spec_key(&file);
+    let key = SpecKey::for_file(&file);
     let words = pack(&file, &PackOptions::default());
     let queries = random_queries(3, RANDOM_QUERIES, 0.5);
     let spirv = shader_blob(&key).unwrap().batch_spirv;
@@ -345,7 +345,7 @@ fn check_scene(gpu: &Gpu, filter: FilterMode, files: &[(String, VtexFile)]) {
     };
     let (files, packed) = that_fit(files, &options);
     let union = files.iter().fold(0, |union, (_, file)| {
-        union | spec_key_with(file, &options).features
+        union | spec_key(file, &options).features
     });
     let mut bases = Vec::new();
     let mut words = Vec::new();

@@ -2,7 +2,7 @@
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use rayon::prelude::*;
-use vtex_format::{Features, MAX_ENTRIES_PER_CELL, MAX_FRAMES, SHADER_ABI, SpecKey};
+use vtex_format::{AddressMode, Features, MAX_ENTRIES_PER_CELL, MAX_FRAMES, SHADER_ABI, SpecKey};
 use vtex_shaders::{BindingSlot, batch_kernel, fragment, scene_evaluator, shader_blob, spirv};
 
 /// One feature combination in thirteen, so that any few features meet in every state, each with one
@@ -12,11 +12,12 @@ fn keys() -> impl ParallelIterator<Item = SpecKey> {
         .step_by(13)
         .chain([Features::ALL])
         .collect();
-    sets.into_par_iter().map(|features| SpecKey {
+    let mode = |bits: u32| AddressMode::ALL[(bits & 3) as usize];
+    sets.into_par_iter().map(move |features| SpecKey {
         abi: SHADER_ABI,
         features,
-        address_u: (features ^ (features >> 4)) & 3,
-        address_v: ((features >> 2) ^ (features >> 6)) & 3,
+        address_u: mode(features ^ (features >> 4)),
+        address_v: mode((features >> 2) ^ (features >> 6)),
         texels_per_cell: 1 + features % 32,
         max_entries: 1 + features % MAX_ENTRIES_PER_CELL,
         frames: 1 + features % MAX_FRAMES,
@@ -71,8 +72,8 @@ fn keys_that_no_file_should_have_still_make_a_shader() {
         let key = SpecKey {
             abi: bits,
             features: bits,
-            address_u: bits,
-            address_v: bits,
+            address_u: AddressMode::Border,
+            address_v: AddressMode::Border,
             texels_per_cell: bits,
             max_entries: bits,
             frames: bits,
@@ -108,8 +109,8 @@ fn check_loops(features: u32) {
     let key = SpecKey {
         abi: SHADER_ABI,
         features,
-        address_u: 1,
-        address_v: 1,
+        address_u: AddressMode::Repeat,
+        address_v: AddressMode::Repeat,
         texels_per_cell: 8,
         max_entries: u32::MAX,
         frames: 0,

@@ -17,7 +17,7 @@ pub(crate) struct CellInput<'a> {
     pub(crate) placed: &'a [Placed],
     /// Where they show; empty for images.
     pub(crate) covers: &'a [Cover],
-    /// Index of the paint, or of the image for a patch.
+    /// Index of the paint, or of the image.
     pub(crate) paint_or_image: &'a [u32],
     /// Their ranks.
     pub(crate) packing: &'a Packing,
@@ -40,7 +40,7 @@ pub(crate) struct Present {
 pub(super) fn items_by_cell(input: &CellInput<'_>, lattice: &Lattice) -> Vec<Vec<Present>> {
     let mut by_cell = vec![Vec::new(); lattice.cell_count()];
     for (item, (placed, cover)) in (0_u32..).zip(input.placed.iter().zip(input.covers)) {
-        if placed.kind != PlacedKind::Patch {
+        if placed.kind != PlacedKind::Image {
             for &cell in &cover.cells.listed {
                 by_cell[cell as usize].push(Present { item, full: false });
             }

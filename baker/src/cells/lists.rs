@@ -1,6 +1,6 @@
 //! The grid's words, lists and what they name, as the file stores them.
 
-use vtex_format::SourceRecord;
+use vtex_format::RecordParts;
 
 /// All cells.
 #[derive(Debug, Default)]
@@ -14,7 +14,7 @@ pub(crate) struct CellLists {
     /// Curve records, one after the other.
     pub(crate) curves: Vec<u32>,
     /// The outlines that each record is cut from. They are named by item here.
-    pub(crate) sources: Vec<SourceRecord>,
+    pub(crate) record_parts: Vec<RecordParts>,
 }
 
 /// A tile that some list names.

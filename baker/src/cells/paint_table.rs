@@ -90,18 +90,18 @@ impl PaintTable {
 }
 
 /// The paint of each item, or for a patch the index of its image, the first of which is
-/// `first_patch`.
+/// `first_image`.
 pub(crate) fn number_paints(
     placed: &[Placed],
-    first_patch: u32,
+    first_image: u32,
     paints: &mut PaintTable,
 ) -> Vec<u32> {
-    let mut patches = first_patch..;
+    let mut images = first_image..;
     placed
         .iter()
         .map(|item| match &item.kind {
             PlacedKind::Shape { paint, .. } => paints.intern(paint),
-            PlacedKind::Patch => patches.next().unwrap_or(u32::MAX),
+            PlacedKind::Image => images.next().unwrap_or(u32::MAX),
             // A clip is never painted; any number does.
             PlacedKind::Clip => 0,
         })

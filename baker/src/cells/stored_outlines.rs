@@ -1,7 +1,7 @@
 //! The outlines that the file stores instead of curve records: each once, and the cells it is cut
 //! to.
 
-use vtex_format::{CurveLattice, CurveSources, SourceRecord};
+use vtex_format::{CurveLattice, RecordParts, StoredOutlines};
 
 use super::{input::CellInput, lists::CellLists};
 use crate::coverage::{
@@ -18,24 +18,24 @@ pub(crate) fn stored_curves(
     lists: &CellLists,
     lattice: &Lattice,
     scales: &Scales,
-) -> (Option<CurveLattice>, Option<CurveSources>) {
+) -> (Option<CurveLattice>, Option<StoredOutlines>) {
     let curve_lattice =
         curve_lattice(input.placed, lattice, scales).filter(|_| !lists.curves.is_empty());
-    let sources = curve_lattice.and_then(|curves| {
+    let outlines = curve_lattice.and_then(|curves| {
         let flatness = flatness_units(lattice, curves, scales.longer_side_px);
-        sources(input.covers, &lists.sources, flatness)
-            .filter(|sources| sources.is_cuttable(&lattice.grid, curves))
+        stored_outlines(input.covers, &lists.record_parts, flatness)
+            .filter(|outlines| outlines.is_cuttable(&lattice.grid, curves))
     });
-    (curve_lattice, sources)
+    (curve_lattice, outlines)
 }
 
 /// The outlines that `records` are cut from, which name items so far; `None` when one of them
 /// cannot be stored, so that the file must hold the records themselves.
-fn sources(
+fn stored_outlines(
     covers: &[Cover],
-    records: &[SourceRecord],
+    records: &[RecordParts],
     flatness_units: f32,
-) -> Option<CurveSources> {
+) -> Option<StoredOutlines> {
     // Only outlines that show are stored, in painter's order.
     let mut shown: Vec<u32> = records
         .iter()
@@ -43,18 +43,18 @@ fn sources(
         .collect();
     shown.sort_unstable();
     shown.dedup();
-    let outline = |item: &u32| covers.get(*item as usize)?.source.clone();
+    let outline = |item: &u32| covers.get(*item as usize)?.stored.clone();
     let outlines = shown.iter().map(outline).collect::<Option<Vec<_>>>()?;
     // From the number of the item to the number of the stored outline.
     let index = |item: u32| u32::try_from(shown.binary_search(&item).ok()?).ok();
-    let renumbered = |record: &SourceRecord| {
+    let renumbered = |record: &RecordParts| {
         let outlines = record.outlines.iter().map(|&item| index(item));
-        Some(SourceRecord {
+        Some(RecordParts {
             cell: record.cell,
             outlines: outlines.collect::<Option<_>>()?,
         })
     };
-    Some(CurveSources {
+    Some(StoredOutlines {
         flatness_units,
         outlines,
         records: records.iter().map(renumbered).collect::<Option<_>>()?,

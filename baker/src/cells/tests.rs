@@ -92,7 +92,7 @@ fn compare_lists(drawing: &Drawing, file: &VtexFile, config: &BakeConfig, points
             }
         }
         let mut listed = [0.0; 4];
-        if let CellWord::Solid { paint } = word {
+        if let CellWord::Paint { paint } = word {
             crate::testing::under(&mut listed, stored_at(file, paint, uv));
         }
         for entry in &entries {

@@ -27,7 +27,7 @@ pub(crate) fn render_tiles(
     let total = tiles.len().saturating_mul(tile_bytes);
     if total > MAX_TILE_BYTES {
         return Err(BakeError::Limit(format!(
-            "{} MiB of distance fields; bake with a smaller MSDF size",
+            "{} MiB of MSDF tiles; bake with a smaller MSDF size",
             total >> 20
         )));
     }

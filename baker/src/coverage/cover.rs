@@ -2,7 +2,7 @@
 
 use kurbo::Affine;
 use rayon::prelude::*;
-use vtex_format::{CurveLattice, SourceOutline, cut::CellCurves};
+use vtex_format::{CurveLattice, StoredOutline, cut::CellCurves};
 
 use crate::{
     coverage::{
@@ -36,7 +36,7 @@ pub(crate) struct Cover {
     pub(crate) curves: Vec<CellCurves>,
     /// If it is curves, the whole outline as the file stores it; `None` where a reader could not
     /// cut it to the same records.
-    pub(crate) source: Option<SourceOutline>,
+    pub(crate) stored: Option<StoredOutline>,
     /// Index into `curves` of each listed cell's first part; empty when each cell has exactly one.
     firsts: Vec<u32>,
 }
@@ -76,7 +76,7 @@ pub(crate) fn cover(
     let cutter = curve_lattice(placed, lattice, scales)
         .map(|curve_lattice| Cutter::new(lattice, curve_lattice, scales));
     let cover_one = |placed: &Placed| {
-        if placed.kind == PlacedKind::Patch {
+        if placed.kind == PlacedKind::Image {
             return Ok(Cover::default());
         }
         if let (true, Some(cutter)) = (placed.is_curves(), &cutter) {
@@ -118,7 +118,7 @@ impl Cutter {
         let outline = self.units_from_steps * &placed.outline;
         let lowered = LoweredOutline::new(&outline, self.params.flatness_units)?;
         let shape = cut_to_cells(&lowered, &self.params);
-        let source = stored_outline(&lowered, placed.rule);
+        let stored = stored_outline(&lowered, placed.rule);
         let mut cells = ShapeCells::default();
         // A cell without an edge in its box has one winding: inside or not.
         let filled = shape.covered.into_iter();
@@ -143,7 +143,7 @@ impl Cutter {
                 curves.extend(self.strips(cell_curves, placed.rule)?);
             }
         }
-        let source = source.filter(|_| whole);
+        let stored = stored.filter(|_| whole);
         // The usual case needs no table.
         if curves.len() == cells.listed.len() {
             firsts = Vec::new();
@@ -151,7 +151,7 @@ impl Cutter {
         Ok(Cover {
             cells,
             curves,
-            source,
+            stored,
             firsts,
         })
     }

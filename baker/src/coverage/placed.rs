@@ -42,7 +42,7 @@ pub(crate) enum PlacedKind {
         verdict: Verdict,
     },
     /// A raster image; the outline is its rectangle.
-    Patch,
+    Image,
     /// An outline that clips a group.
     Clip,
 }
@@ -68,7 +68,7 @@ impl Placed {
         match &self.kind {
             PlacedKind::Shape { verdict, .. } => verdict.coverage == Coverage::Curves,
             PlacedKind::Clip => true,
-            PlacedKind::Patch => false,
+            PlacedKind::Image => false,
         }
     }
 
@@ -136,10 +136,10 @@ pub(crate) fn place_item(
             let outline = lattice.lattice_from_canvas * clean(&clip.outline, canvas_longer);
             Placed::new(outline, clip.rule, PlacedKind::Clip)
         }
-        Item::Patch(patch) => {
+        Item::Image(image) => {
             // The tolerance has no meaning for a rectangle.
-            let outline = lattice.lattice_from_canvas * patch.rect.to_path(0.1);
-            Placed::new(outline, FillRule::NonZero, PlacedKind::Patch)
+            let outline = lattice.lattice_from_canvas * image.rect.to_path(0.1);
+            Placed::new(outline, FillRule::NonZero, PlacedKind::Image)
         }
     }
 }

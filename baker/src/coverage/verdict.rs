@@ -1,6 +1,6 @@
 //! The decision what a shape becomes, with its reasons.
 
-use vtex_format::{FieldError, Finding};
+use vtex_format::{Finding, MsdfError};
 
 use crate::drawing::Item;
 
@@ -24,7 +24,7 @@ pub(crate) struct Verdict {
     /// was.
     pub(crate) size_texels: u32,
     /// The error of its MSDF, if it was measured.
-    pub(crate) error: Option<FieldError>,
+    pub(crate) error: Option<MsdfError>,
 }
 
 impl Verdict {

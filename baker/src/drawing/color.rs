@@ -2,7 +2,7 @@
 
 use vtex_format::MaskKind;
 
-pub(crate) use vtex_shaders::cpu::color::{decode_channel as decode, encode_channel as encode};
+pub(crate) use vtex_shaders::srgb::{decode, encode};
 
 /// The weight of a mask that has one colour: straight alpha, sRGB-encoded.
 pub(crate) fn mask_weight(kind: MaskKind, [r, g, b, a]: [f32; 4]) -> f32 {

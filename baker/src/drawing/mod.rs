@@ -52,8 +52,8 @@ impl Drawing {
 pub(crate) enum Item {
     /// Geometry with a paint.
     Shape(Shape),
-    /// A raster image in place of what no shape can be.
-    Patch(Patch),
+    /// A raster image: a patch or an embedded image.
+    Image(ImageItem),
     /// An outline that clips a group. It paints nothing itself.
     Clip(ClipOutline),
 }
@@ -113,7 +113,7 @@ impl FillRule {
 /// A raster image at its place in painter's order: a subtree that is not geometry, a shape that is
 /// too complex, or an embedded image with its own texels.
 #[derive(Debug)]
-pub(crate) struct Patch {
+pub(crate) struct ImageItem {
     /// Where it lies on the canvas.
     pub(crate) rect: Rect,
     /// Its texels and mips.
@@ -124,7 +124,7 @@ pub(crate) struct Patch {
     pub(crate) element: String,
 }
 
-impl Patch {
+impl ImageItem {
     /// Share of the canvas that it covers: only texels with alpha above 0 count.
     pub(crate) fn area(&self, canvas_size: [f64; 2]) -> f32 {
         let texels = self.image.mips.first().map_or(&[][..], |level| level);

@@ -7,7 +7,7 @@
 
 use kurbo::{Affine, Point};
 use vtex_format::{COVERAGE_CURVES, VtexFile};
-use vtex_shaders::cpu::color::decode;
+use vtex_shaders::srgb;
 
 use super::{gradient, tree::Covering};
 use crate::{
@@ -93,7 +93,7 @@ impl Oracle {
             let (outline, rule, paint) = match item {
                 Item::Shape(shape) => (&shape.outline, shape.fill_rule, Some(&shape.paint)),
                 Item::Clip(clip) => (&clip.outline, clip.rule, None),
-                Item::Patch(_) => return Ok(None),
+                Item::Image(_) => return Ok(None),
             };
             let outline = units_from_canvas * clean(outline, canvas_longer);
             let Ok(lowered) = LoweredOutline::new(&outline, tolerance) else {
@@ -278,7 +278,7 @@ fn linear(premultiplied: [f64; 4]) -> [f32; 4] {
     }
     #[expect(clippy::cast_possible_truncation, reason = "lookups return f32")]
     let [straight @ .., alpha] = [r / a, g / a, b / a, a].map(|c| c as f32);
-    let [r, g, b] = decode(straight).map(|c| c * alpha);
+    let [r, g, b] = straight.map(|c| srgb::decode(c) * alpha);
     [r, g, b, alpha]
 }
 
@@ -304,7 +304,7 @@ mod tests {
         assert_eq!(oracle.color([0.3, 0.5]), [1.0, 0.0, 0.0, 1.0]);
         assert_eq!(oracle.color([0.5, 0.5]), [0.0, 0.0, 1.0, 1.0]);
         let [r, g, b, a] = oracle.color([0.7, 0.5]);
-        let half = decode([0.5; 3])[0];
+        let half = srgb::decode(0.5);
         assert!(
             (g - half).abs() < 1e-6 && (b - half).abs() < 1e-6,
             "{g} {b}"

@@ -1,7 +1,7 @@
 //! Compositing the items at one point, group by group.
 
 use vtex_format::MaskKind;
-use vtex_shaders::cpu::color::decode;
+use vtex_shaders::srgb::decode;
 
 use super::blend::blend;
 use crate::drawing::tree::{Clip, Group, Mask, Node};
@@ -73,7 +73,7 @@ impl<P: Fn(u32) -> [f64; 4]> Covering<'_, P> {
                 }
                 #[expect(clippy::cast_possible_truncation, reason = "the transfer is f32")]
                 let straight = [r, g, b].map(|c| (c / alpha) as f32);
-                light(decode(straight).map(f64::from)) * alpha
+                light(straight.map(|c| f64::from(decode(c)))) * alpha
             }
         }
     }

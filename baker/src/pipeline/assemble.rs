@@ -40,10 +40,10 @@ pub(crate) fn assemble(
 
     observer(Stage::Cells);
     // Mips, if there are any, are image 0.
-    let first_patch = u32::from(mip0.is_some());
+    let first_image = u32::from(mip0.is_some());
     let tree = std::mem::take(&mut drawing.tree);
     let mut paints = PaintTable::default();
-    let paint_or_image = number_paints(&layout.placed, first_patch, &mut paints);
+    let paint_or_image = number_paints(&layout.placed, first_image, &mut paints);
     let layers = Layers::new(&layout.placed, &packing);
     let input = CellInput {
         placed: &layout.placed,

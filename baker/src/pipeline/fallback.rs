@@ -11,7 +11,7 @@ use crate::{
         placed::{Placed, place_item},
         verdict::{Coverage, Verdict},
     },
-    drawing::{Drawing, Item, Patch},
+    drawing::{Drawing, ImageItem, Item},
     number::count,
     raster::patch::{self, PatchSettings},
     warning,
@@ -39,14 +39,14 @@ pub(crate) fn patch_failures(
                     drawing.warnings.push(clip_warning());
                     return Cover::everywhere(lattice);
                 }
-                Item::Patch(_) => return Cover::default(),
+                Item::Image(_) => return Cover::default(),
             };
             // Without a patch nothing of the shape shows, and its empty cover lists it nowhere.
             if let Some(patch) = patch::of_shape(shape, settings, share) {
                 drawing
                     .warnings
                     .push(failure_warning(&patch, drawing.canvas_size));
-                *item = Item::Patch(patch);
+                *item = Item::Image(patch);
                 *placed = place_item(item, lattice, longer, Verdict::forced(Coverage::Msdf));
             }
             Cover::default()
@@ -60,7 +60,7 @@ fn clip_warning() -> Warning {
     warning::plain(WarningCode::PathFallback, "clipPath", "", message)
 }
 
-fn failure_warning(patch: &Patch, canvas_size: [f64; 2]) -> Warning {
+fn failure_warning(patch: &ImageItem, canvas_size: [f64; 2]) -> Warning {
     let [width, height] = patch.image.size;
     Warning {
         code: WarningCode::PathFallback,

@@ -18,8 +18,9 @@ use crate::{
     raster::patch::PatchSettings,
 };
 
-/// Most pieces of outlines in all cells of a grid that is tried. They take 200 MiB.
-const MAX_PIECES: f64 = 2e6;
+/// Most segments into which the cells of a grid that is tried may cut the outlines. They take
+/// 200 MiB.
+const MAX_CUT_SEGMENTS: f64 = 2e6;
 
 /// A drawing on its grid.
 #[derive(Debug)]
@@ -78,8 +79,8 @@ impl Attempt {
 }
 
 /// Lays the drawing on a grid. If all shapes are curves, it is the coarsest one whose cells have
-/// room for the outlines, as far as [`MAX_PIECES`] allows; with MSDFs the judge has decided the
-/// size.
+/// room for the outlines, as far as [`MAX_CUT_SEGMENTS`] allows; with MSDFs the judge has decided
+/// the size.
 fn lay(drawing: &Drawing, judgement: &Judgement, config: &BakeConfig) -> Attempt {
     let (canvas_size, mip0_size) = (drawing.canvas_size, config.mip0_size);
     let msdf_size = judgement.msdf_size;
@@ -91,7 +92,8 @@ fn lay(drawing: &Drawing, judgement: &Judgement, config: &BakeConfig) -> Attempt
     // An outline that is too much for one cell may fit into smaller ones.
     while attempt.covers.iter().any(Result::is_err) {
         let halved = attempt.lattice.halved(canvas_size, mip0_size);
-        let Some(halved) = halved.filter(|halved| pieces(&attempt.placed, halved) <= MAX_PIECES)
+        let Some(halved) =
+            halved.filter(|halved| cut_segments(&attempt.placed, halved) <= MAX_CUT_SEGMENTS)
         else {
             break;
         };
@@ -100,10 +102,10 @@ fn lay(drawing: &Drawing, judgement: &Judgement, config: &BakeConfig) -> Attempt
     attempt
 }
 
-/// About how many pieces the cells of `lattice` would cut the outlines into. They are placed on
+/// About how many segments the cells of `lattice` would cut the outlines into. They are placed on
 /// another lattice, so lengths are taken relative to the canvas.
-fn pieces(placed: &[Placed], lattice: &Lattice) -> f64 {
-    let shapes = placed.iter().filter(|item| item.kind != PlacedKind::Patch);
+fn cut_segments(placed: &[Placed], lattice: &Lattice) -> f64 {
+    let shapes = placed.iter().filter(|item| item.kind != PlacedKind::Image);
     let segments = shapes.flat_map(|item| item.outline.segments());
     let reach: f64 = segments
         .map(|segment| {

@@ -45,7 +45,7 @@ fn report((item, placed): (&Item, &Placed)) -> Option<ShapeReport> {
             };
             (&shape.element, source)
         }
-        Item::Patch(patch) => (&patch.element, patch.feature.as_str()),
+        Item::Image(image) => (&image.element, image.feature.as_str()),
         Item::Clip(_) => return None,
     };
     let report = ShapeReport {
@@ -61,12 +61,12 @@ fn report((item, placed): (&Item, &Placed)) -> Option<ShapeReport> {
                 Coverage::Msdf => placed.size_texels(),
                 Coverage::Curves => verdict.size_texels,
             },
-            field_error: verdict.error,
+            msdf_error: verdict.error,
             ..report
         }),
-        PlacedKind::Patch => Some(ShapeReport {
+        PlacedKind::Image => Some(ShapeReport {
             finding: match item {
-                Item::Patch(patch) if patch.feature == SHAPE_FEATURE => Finding::TooManySegments,
+                Item::Image(image) if image.feature == SHAPE_FEATURE => Finding::TooManySegments,
                 _ => Finding::None,
             },
             ..report

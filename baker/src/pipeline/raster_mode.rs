@@ -42,7 +42,7 @@ pub(crate) fn rastered(
     warnings.extend(coarse);
     Ok(Drawing {
         canvas_size,
-        items: vec![Item::Patch(patch)],
+        items: vec![Item::Image(patch)],
         tree: Tree::flat(1),
         warnings,
     })

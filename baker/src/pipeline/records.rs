@@ -2,10 +2,11 @@
 
 use kurbo::{Rect, Shape as _};
 use vtex_format::{
-    COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CurveLattice, FILL_EVEN_ODD, FILL_NON_ZERO,
-    Image, LayerRecord, Meta, Outline, SamplerSettings, ShaderBlob, ShapeRecord, SpecKey, VtexFile,
+    COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CurveLattice, DistanceOutline, FILL_EVEN_ODD,
+    FILL_NON_ZERO, Features, Image, LayerRecord, Meta, SamplerSettings, ShapeRecord, SpecKey,
+    VtexFile,
 };
-use vtex_shaders::{SpecParts, shader_blob, spec_key_from_parts};
+use vtex_shaders::shader_blob;
 
 use super::warnings::warnings;
 use super::{layout::Layout, provenance::provenance};
@@ -57,27 +58,16 @@ pub(super) fn file(
         ..
     } = stages;
     let (lattice, scales) = (&layout.lattice, &layout.scales);
-    let outline = config.outline_texels.map(|width_texels| Outline {
+    let outline = config.outline_texels.map(|width_texels| DistanceOutline {
         width_texels,
         paint: paints.intern(&config.stroke_color.map_or(Paint::BLACK, Paint::Solid)),
     });
     let warnings = warnings(&mut drawing, input, &lists);
-    let (curve_lattice, sources) = stored_curves(input, &lists, lattice, scales);
+    let (curve_lattice, outlines) = stored_curves(input, &lists, lattice, scales);
     let meta = meta(&drawing, config, lattice, curve_lattice, scales, outline);
     let (paints, gradients) = paints.into_records();
-    let (spec, shader) = specialised(&SpecParts {
-        sampler: &meta.sampler,
-        texels_per_cell: lattice.grid.texels_per_cell,
-        paints: &paints,
-        cells: &lists.words,
-        entries: &lists.entries,
-        canvas_mips: has_mips,
-    })?;
     let provenance = provenance(&drawing, input.placed, config, source_hash, warnings);
-    Ok(VtexFile {
-        meta,
-        spec,
-        shader,
+    let mut file = VtexFile {
         paints,
         gradients,
         shapes: shape_records(input, lattice),
@@ -86,17 +76,18 @@ pub(super) fn file(
         entries: lists.entries,
         tiles: stages.tiles,
         curves: lists.curves,
-        sources,
+        outlines,
         provenance: Some(provenance),
         images: images(drawing, has_mips),
-    })
-}
-
-/// The spec key and the specialised shader.
-fn specialised(parts: &SpecParts<'_>) -> Result<(SpecKey, ShaderBlob), BakeError> {
-    let spec = spec_key_from_parts(parts);
-    let shader = shader_blob(&spec).map_err(|error| BakeError::Shader(error.to_string()))?;
-    Ok((spec, shader))
+        ..VtexFile::blank(meta)
+    };
+    if has_mips {
+        file.spec.features |= Features::MIPS;
+    }
+    file.spec = SpecKey::for_file(&file);
+    let shader = shader_blob(&file.spec);
+    file.shader = shader.map_err(|error| BakeError::Shader(error.to_string()))?;
+    Ok(file)
 }
 
 /// The record of the file as a whole.
@@ -106,7 +97,7 @@ fn meta(
     lattice: &Lattice,
     curve_lattice: Option<CurveLattice>,
     scales: &Scales,
-    outline: Option<Outline>,
+    outline: Option<DistanceOutline>,
 ) -> Meta {
     Meta {
         canvas_size: drawing.canvas_size.map(to_f32),
@@ -134,7 +125,7 @@ fn shape_records(input: &CellInput<'_>, lattice: &Lattice) -> Vec<ShapeRecord> {
                 Coverage::Msdf => (COVERAGE_MSDF, layer, paint_or_image),
                 Coverage::Curves => (COVERAGE_CURVES, layer, paint_or_image),
             },
-            PlacedKind::Patch => (COVERAGE_IMAGE, paint_or_image, 0),
+            PlacedKind::Image => (COVERAGE_IMAGE, paint_or_image, 0),
             PlacedKind::Clip => return None,
         };
         Some(ShapeRecord {
@@ -168,10 +159,10 @@ fn bounds_uv(area: Rect, lattice: &Lattice) -> [f32; 4] {
 
 /// The file's images: a placeholder for mips, if there will be any, and those of the drawing.
 fn images(drawing: Drawing, mips: bool) -> Vec<Image> {
-    let patches = drawing.items.into_iter().filter_map(|item| match item {
-        Item::Patch(patch) => Some(patch.image),
+    let images = drawing.items.into_iter().filter_map(|item| match item {
+        Item::Image(item) => Some(item.image),
         Item::Shape(_) | Item::Clip(_) => None,
     });
     let mips = mips.then(canvas::no_mips);
-    mips.into_iter().chain(patches).collect()
+    mips.into_iter().chain(images).collect()
 }

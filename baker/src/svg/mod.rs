@@ -9,7 +9,7 @@ mod source;
 mod walk;
 
 pub(crate) use cost::Cost;
-pub(crate) use plan::{Plan, Step, Subtree};
+pub(crate) use plan::{Plan, PlanItem, Subtree};
 pub use source::font_selector;
 pub(crate) use source::parse;
 pub(crate) use walk::{WalkOptions, plan};

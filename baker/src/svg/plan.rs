@@ -10,14 +10,14 @@ pub(crate) struct Plan<'a> {
     /// Width and height of the canvas in user units.
     pub(crate) canvas_size: [f64; 2],
     /// Back to front.
-    pub(crate) steps: Vec<Step<'a>>,
-    /// The groups that hold them. Its items are indices of steps.
+    pub(crate) items: Vec<PlanItem<'a>>,
+    /// The groups that hold them, by index.
     pub(crate) tree: Tree,
 }
 
 /// One element of the plan.
 #[derive(Debug)]
-pub(crate) enum Step<'a> {
+pub(crate) enum PlanItem<'a> {
     /// A shape.
     Shape(Shape),
     /// An outline that clips a group.

@@ -55,7 +55,7 @@ impl Evaluator<'_> {
     pub(crate) fn point(&self, uv: [f64; 2]) -> [f64; 4] {
         let (word, entries, q) = self.entries(uv);
         let mut out = [0.0; 4];
-        if let CellWord::Solid { paint } = word {
+        if let CellWord::Paint { paint } = word {
             under(&mut out, self.file.paints[paint as usize].color);
         }
         for entry in entries {
@@ -115,7 +115,7 @@ pub(crate) fn paint_exactly(
                 let region = Region::new(&closed(&(to_uv * &shape.outline)), shape.fill_rule);
                 Some((region, solid(&shape.paint)))
             }
-            Item::Patch(_) | Item::Clip(_) => None,
+            Item::Image(_) | Item::Clip(_) => None,
         })
         .collect();
     move |uv| {

@@ -73,7 +73,7 @@ fn hostile_files_end_in_a_drawing_or_an_error() {
         if let Ok(drawing) = &result {
             let finite = drawing.items.iter().all(|item| match item {
                 crate::drawing::Item::Shape(shape) => shape.outline.is_finite(),
-                crate::drawing::Item::Patch(patch) => patch.rect.is_finite(),
+                crate::drawing::Item::Image(patch) => patch.rect.is_finite(),
                 crate::drawing::Item::Clip(clip) => clip.outline.is_finite(),
             });
             assert!(finite, "{name}");

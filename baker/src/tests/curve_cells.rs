@@ -32,7 +32,7 @@ fn config() -> BakeConfig {
 fn bake(drawing: Drawing, config: &BakeConfig) -> VtexFile {
     let file = assemble(drawing, None, config, [0; 32], &|_| ()).unwrap();
     assert_eq!(file.check(), []);
-    assert_eq!(file.sources.is_some(), !file.curves.is_empty());
+    assert_eq!(file.outlines.is_some(), !file.curves.is_empty());
     file
 }
 

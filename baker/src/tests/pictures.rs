@@ -339,7 +339,7 @@ fn only_pixels_become_a_patch_in_its_place() {
             .items
             .iter()
             .filter_map(|item| match item {
-                Item::Patch(patch) => Some(patch.feature.as_str()),
+                Item::Image(patch) => Some(patch.feature.as_str()),
                 _ => None,
             })
             .collect();
@@ -425,7 +425,7 @@ fn replaced_colours_reach_shapes_and_mips() {
         .iter()
         .map(|item| match item {
             Item::Shape(shape) => solid(&shape.paint),
-            Item::Patch(patch) => panic!("{} is a patch", patch.feature),
+            Item::Image(patch) => panic!("{} is a patch", patch.feature),
             Item::Clip(_) => panic!("a clip"),
         })
         .collect();
@@ -444,7 +444,7 @@ fn raster_mode_is_one_patch_of_the_canvas() {
         ..BakeConfig::default()
     };
     let drawing = pipeline::rastered(drawing_of(&svg, &config), &config, &|_| {}).unwrap();
-    let [Item::Patch(patch)] = drawing.items.as_slice() else {
+    let [Item::Image(patch)] = drawing.items.as_slice() else {
         panic!("one patch")
     };
     assert_eq!(patch.rect, kurbo::Rect::new(0.0, 0.0, 200.0, 200.0));

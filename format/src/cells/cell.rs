@@ -29,14 +29,14 @@ pub const MAX_ITEMS: u64 = 1 << 23;
 /// | bits 31..30 | bits 29..0 |
 /// |---|---|
 /// | 0 empty | 0 |
-/// | 1 single colour | paint index; the lookup's whole answer, even when translucent |
+/// | 1 single paint | paint index; the lookup's whole answer, even when translucent |
 /// | 2 list | word offset of the first, frontmost entry in the entry section |
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CellWord {
     /// Nothing is drawn here.
     Empty,
     /// One paint covers the whole cell and all that lies behind is folded into it.
-    Solid {
+    Paint {
         /// Index into the paints.
         paint: u32,
     },
@@ -52,7 +52,7 @@ impl CellWord {
     pub fn encode(self) -> Option<u32> {
         let (tag, payload) = match self {
             Self::Empty => (0, 0),
-            Self::Solid { paint } => (1, paint),
+            Self::Paint { paint } => (1, paint),
             Self::List { offset_words } => (2, offset_words),
         };
         (payload <= PAYLOAD_MASK).then_some((tag << CELL_TAG_SHIFT) | payload)
@@ -62,8 +62,9 @@ impl CellWord {
     pub fn decode(word: u32) -> Option<Self> {
         let payload = word & PAYLOAD_MASK;
         match word >> CELL_TAG_SHIFT {
+            // An empty cell has one encoding, so equal grids have equal bytes.
             0 if payload == 0 => Some(Self::Empty),
-            1 => Some(Self::Solid { paint: payload }),
+            1 => Some(Self::Paint { paint: payload }),
             2 => Some(Self::List {
                 offset_words: payload,
             }),
@@ -144,6 +145,7 @@ impl Entry {
         let last = if self.last { LAST_BIT } else { 0 };
         let opaque = if self.opaque { OPAQUE_BIT } else { 0 };
         let head = ((self.kind as u32) << KIND_SHIFT) | last | opaque | self.index;
+        // The stored field is wider than MAX_INDEXED; evaluators' items have 18 bits for the index.
         (self.index < MAX_INDEXED && self.is_sound()).then_some([head, self.data])
     }
 
@@ -177,9 +179,11 @@ impl Entry {
         match self.kind {
             EntryKind::Full | EntryKind::Image => self.data == 0,
             EntryKind::Msdf | EntryKind::Curves => true,
+            // A test that passes over nothing would cost time and change nothing.
             EntryKind::Test => self.index > 0,
             EntryKind::Open => !self.opaque && self.index == 0 && self.data <= OPEN_ISOLATED,
             EntryKind::Close => {
+                // The bits of negative numbers and of NaN are larger than those of 1.
                 !self.opaque && (self.index as usize) < modes && self.data <= ONE_BITS
             }
             EntryKind::Mask => {

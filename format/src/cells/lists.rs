@@ -2,11 +2,14 @@
 
 use super::cell::{Entry, LAST_BIT, MAX_ENTRIES_PER_CELL};
 
-/// For each entry how many there are from it to the next last one; `None` when that is more than
-/// [`MAX_ENTRIES_PER_CELL`] or never comes. One backward pass, however lists overlap.
+/// For each entry the number of entries from it to the next last one, both counted; `None` when
+/// there are more than [`MAX_ENTRIES_PER_CELL`] or none is the last. One backward pass, however lists
+/// overlap.
 pub(crate) fn list_lengths(entries: &[u32]) -> Vec<Option<u32>> {
     let (pairs, _) = entries.as_chunks::<2>();
     let mut length = None;
+    // From the back each count follows from the one behind it. A count that is too large becomes
+    // `None` and stays so up to the next last entry.
     let backward = pairs.iter().rev().map(|[head, _]| {
         length = if head & LAST_BIT != 0 {
             Some(1)

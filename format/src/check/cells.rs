@@ -2,11 +2,11 @@
 
 use std::cell::OnceCell;
 
+use crate::cells::blocks::{ListFaultKind, list_frames};
 use crate::cells::cell::{
     CellWord, Entry, EntryKind, LAST_BIT, MAX_ENTRIES_PER_CELL, MAX_ITEMS, MAX_LIST_ITEMS,
 };
 use crate::cells::lists::{list_entries, list_lengths};
-use crate::cells::scope::{ListFaultKind, list_frames};
 use crate::container::issue::{self, Issues};
 use crate::container::tag::Tag;
 use crate::file::texture::VtexFile;
@@ -48,7 +48,8 @@ pub(super) struct Bounds {
 pub(super) fn entries(file: &VtexFile, tables: &Tables, issues: &mut Issues) {
     let (pairs, rest) = file.entries.as_chunks::<2>();
     if !rest.is_empty() {
-        let message = format_args!("{} words", file.entries.len());
+        let count = file.entries.len();
+        let message = format_args!("{count} words");
         issues.add(
             issue::ENTRY_COUNT,
             Tag::ENTR,
@@ -138,8 +139,8 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> Bounds {
         match CellWord::decode(word) {
             None => note(issue::CELL_WORD, format_args!("word {word:#010x}")),
             Some(CellWord::Empty) => {}
-            Some(CellWord::Solid { paint }) if (paint as usize) < file.paints.len() => {}
-            Some(CellWord::Solid { paint }) => {
+            Some(CellWord::Paint { paint }) if (paint as usize) < file.paints.len() => {}
+            Some(CellWord::Paint { paint }) => {
                 note(
                     issue::CELL_PAINT,
                     format_args!("{paint} of {}", file.paints.len()),
@@ -147,6 +148,7 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> Bounds {
             }
             Some(CellWord::List { offset_words }) => {
                 let length = lengths.get(offset_words as usize / 2);
+                // An entry is two words: an odd offset names the second of them.
                 match length.filter(|_| offset_words % 2 == 0) {
                     None => note(issue::LIST_OFFSET, format_args!("word {offset_words}")),
                     Some(Some(length)) => {
@@ -156,7 +158,8 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> Bounds {
                         if count > u64::from(MAX_LIST_ITEMS) {
                             note(issue::LIST_ITEMS, format_args!("{count} items"));
                         }
-                        // What is too much altogether is refused without a look at each.
+                        // Lists that overlap could take quadratic time. The bound on all items, one
+                        // at least for each entry, keeps the work linear: past it none is parsed.
                         if controls && is_new && items.total <= MAX_ITEMS {
                             let frames = controls_of(&file.entries, first, issues);
                             bounds.frames = bounds.frames.max(frames);
@@ -211,13 +214,14 @@ fn controls_of(entries: &[u32], first: usize, issues: &mut Issues) -> u32 {
 struct Items {
     to_the_end: Vec<u64>,
     taken: Vec<bool>,
-    /// Of the lists taken so far, each once.
+    /// Items of the lists taken so far, each list once.
     total: u64,
 }
 
 impl Items {
     fn of(file: &VtexFile) -> Self {
         let (pairs, _) = file.entries.as_chunks::<2>();
+        // From the back, so that lists that overlap take one pass.
         let mut behind = 0_u64;
         let backward = pairs.iter().rev().map(|&words| {
             let last = words[0] & LAST_BIT != 0;
@@ -236,6 +240,7 @@ impl Items {
 
     /// Items of a list, and whether it is asked for the first time.
     fn take(&mut self, first: usize) -> (u64, bool) {
+        // Invariant: the caller has found the length of this list, so the entry exists.
         let items = self.to_the_end[first];
         let is_new = !std::mem::replace(&mut self.taken[first], true);
         if is_new {
@@ -255,8 +260,11 @@ fn entry_items(file: &VtexFile, words: [u32; 2]) -> u64 {
     };
     let steps = record.iter().skip(CURVE_HEADER_WORDS as usize);
     let steps = steps.take(header.step_count as usize);
+    // Evaluators take an item for each unit by which a step changes the winding.
     let changes = steps.map(|step| u64::from((step.cast_signed() >> 16).unsigned_abs()));
     let base = header.base_winding;
+    // An evaluator's item holds a base winding of four bits, -8 to 7. Each unit beyond takes another
+    // item.
     let beyond = base.saturating_sub(7).max(-8 - base).max(0).unsigned_abs();
     let segments = u64::from(header.line_count) + u64::from(header.quad_count);
     (segments + changes.sum::<u64>() + u64::from(beyond)).max(1)

@@ -22,6 +22,7 @@ pub(super) fn tiles(file: &VtexFile, issues: &mut Issues) {
         );
         issues.add(issue::TILE_BYTES, Tag::TILE, 0, message);
     }
+    // Alpha is not stored: another value would not come back.
     let (texels, _) = file.tiles.as_chunks::<4>();
     if let Some(index) = texels.iter().position(|texel| texel[3] != u8::MAX) {
         let message = format_args!("texel {index} has {}", texels[index][3]);

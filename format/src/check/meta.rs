@@ -77,14 +77,17 @@ pub(crate) fn meta(meta: &Meta, issues: &mut Issues) -> bool {
     let finite = matrix.iter().all(|v| v.is_finite());
     require(finite, issue::TEXTURE_MATRIX, at::TEXTURE_MATRIX, &matrix);
     let smoothing = sampler.smoothing;
+    // The smoothstep runs from 0.5 - S to 0.5 + S of a stored value in [0, 1].
     let smooth = smoothing > 0.0 && smoothing <= 0.5;
     require(smooth, issue::SMOOTHING, at::SMOOTHING, &smoothing);
     if let Some(outline) = sampler.outline {
         let width = outline.width_texels;
+        // Texels hold distances up to half the range: a wider ring would have no outer edge.
         let within = width > 0.0 && width < range / 2.0;
         require(within, issue::OUTLINE_WIDTH, at::OUTLINE_WIDTH, &width);
     }
     if let Some(lattice) = meta.curve_lattice {
+        // bincode stores the optional distance outline before the lattice.
         let outline = sampler.outline.map_or(0, |_| at::OUTLINE_BYTES);
         let fits = lattice.units_per_cell >= 1 && lattice.box_units() <= u32::from(u16::MAX);
         let offset = at::CURVE_LATTICE + outline;
@@ -93,13 +96,14 @@ pub(crate) fn meta(meta: &Meta, issues: &mut Issues) -> bool {
     sound
 }
 
-/// Sources make just the records that stand beside them.
-pub(super) fn sources(file: &VtexFile, issues: &mut Issues) {
-    let Some((sources, lattice)) = file.sources.as_ref().zip(file.meta.curve_lattice) else {
+/// The stored outlines make exactly the records that stand beside them.
+pub(super) fn outlines(file: &VtexFile, issues: &mut Issues) {
+    let Some((outlines, lattice)) = file.outlines.as_ref().zip(file.meta.curve_lattice) else {
         return;
     };
+    // Cutting stops at the first word too many.
     let most = file.curves.len() as u64;
-    match sources.records_within(&file.meta.grid, lattice, most) {
+    match outlines.records_within(&file.meta.grid, lattice, most) {
         Ok(words) if words == file.curves => {}
         Ok(words) => {
             let message = format_args!("{} words, not the {most} there are", words.len());
@@ -123,7 +127,7 @@ pub(super) fn curve_lattice(file: &VtexFile, issues: &mut Issues) {
     }
 }
 
-/// The outline's paint exists and is a single colour.
+/// The distance outline's paint exists and is a single colour.
 pub(super) fn outline_paint(file: &VtexFile, issues: &mut Issues) {
     let Some(outline) = file.meta.sampler.outline else {
         return;

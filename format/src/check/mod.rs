@@ -29,7 +29,8 @@ pub(crate) fn file(file: &VtexFile, issues: &mut Issues) {
     // Without sound settings the lengths of cells and tiles mean nothing.
     if meta(&file.meta, issues) {
         content(file, issues);
-        meta::sources(file, issues);
+        // Not part of `content`: a reader has just made the records from the outlines.
+        meta::outlines(file, issues);
     }
 }
 

@@ -18,6 +18,7 @@ pub(super) fn paints(file: &VtexFile, issues: &mut Issues) {
         };
         if paint.is_gradient() {
             gradient(file, paint, next, &mut note);
+            // Also for a gradient that is wrong, so that those behind it are judged by themselves.
             next += u64::from(paint.data_count);
         } else if paint.kind == PAINT_SOLID {
             solid(paint, &mut note);
@@ -44,6 +45,7 @@ fn solid(paint: &PaintRecord, note: &mut Note<'_>) {
 
 fn gradient(file: &VtexFile, paint: &PaintRecord, begins: u64, note: &mut Note<'_>) {
     let flags = paint.flags;
+    // By bits, since -0.0 compares equal to 0.
     if !Gradient::flags_have_meaning(flags) || paint.color.map(f32::to_bits) != [0; 4] {
         note(issue::PAINT_RESERVED, 4, format_args!("flags {flags:#x}"));
         return;
@@ -73,6 +75,7 @@ fn gradient(file: &VtexFile, paint: &PaintRecord, begins: u64, note: &mut Note<'
         note(issue::GRADIENT_NUMBER, 8, message);
     }
     let offsets = || gradient.stops.iter().map(|stop| stop.offset);
+    // NaN is neither in order nor in range.
     if !offsets().is_sorted() || !offsets().all(|offset| (0.0..=1.0).contains(&offset)) {
         note(issue::GRADIENT_STOPS, 8, format_args!("its stops"));
     }

@@ -53,6 +53,7 @@ pub(super) fn shapes(file: &VtexFile, issues: &mut Issues) {
 pub(super) fn layers(file: &VtexFile, issues: &mut Issues) {
     let mut members = vec![0_u32; file.layers.len()];
     for shape in &file.shapes {
+        // A layer that does not exist is an issue of its shape.
         let layer = members.get_mut(shape.layer_or_image as usize);
         if let Some(count) = layer.filter(|_| shape.coverage != COVERAGE_IMAGE) {
             *count += 1;
@@ -77,6 +78,7 @@ pub(super) fn layers(file: &VtexFile, issues: &mut Issues) {
             issues.add(issue::LAYER_RESERVED, Tag::LAYR, offset + 12, message);
         }
     }
+    // Entries name tiles by 32 bits.
     if next_tile > u64::from(u32::MAX) {
         let message = format_args!("{next_tile} tiles");
         issues.add(issue::RECORD_COUNT, Tag::LAYR, 0, message);

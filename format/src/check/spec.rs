@@ -1,4 +1,4 @@
-//! The shader key against what it was made for.
+//! The spec key against what it was made for.
 
 use super::cells::Bounds;
 use crate::container::issue::{self, Issues};
@@ -57,13 +57,12 @@ pub(super) fn spec(file: &VtexFile, bounds: Bounds, issues: &mut Issues) {
         4,
         format_args!("bits {stray:#x}"),
     );
-    let address = sampler.address.map(|mode| mode as u32);
-    let same = address == [address_u, address_v];
+    let same = sampler.address == [address_u, address_v];
     require(
         same,
         issue::SPEC_ADDRESS,
         8,
-        format_args!("{address_u}, {address_v}"),
+        format_args!("{}, {}", address_u as u32, address_v as u32),
     );
     let texels = file.meta.grid.texels_per_cell;
     let same = texels == texels_per_cell;

@@ -58,7 +58,8 @@ pub(crate) fn read_directory(
         end = at.place(bytes, end);
     }
     if end < bytes.len() as u64 {
-        let message = format_args!("{} bytes too many", bytes.len() as u64 - end);
+        let extra = bytes.len() as u64 - end;
+        let message = format_args!("{extra} bytes too many");
         issues.add(issue::TRAILING, Tag::HEAD, end, message);
     }
     let sections: Vec<_> = table.iter().map(SectionInfo::decode).collect();
@@ -87,6 +88,8 @@ fn read_header<'a>(
         let message = format_args!("{length} bytes are less than the header's 64");
         return refuse(issue::HEADER_SHORT, 0, message);
     };
+    // From here on the order decides what a damaged file is called: no vtex file, then a version
+    // whose fields may lie elsewhere, then a transfer that broke off, then damage.
     if head[..MAGIC.len()] != MAGIC {
         return refuse(issue::MAGIC, 0, describe_magic(head));
     }
@@ -113,6 +116,7 @@ fn read_header<'a>(
         let message = format_args!("header or section table is damaged");
         return refuse(issue::CHECKSUM, header::CHECKSUM, message);
     }
+    // The checksum takes these bytes as zero, so it does not notice them.
     if head[header::RESERVED..].iter().any(|&byte| byte != 0) {
         return refuse(
             issue::HEADER_RESERVED,
@@ -190,11 +194,11 @@ impl EntryCheck<'_> {
             let message = format_args!("{stored} bytes stored, {raw} raw");
             self.note(issue::RAW_LENGTH, entry::RAW_BYTES, message);
         }
-        let image_part = section.tag == Tag::MIPS || (section.group, section.mip) == (0, 0);
+        let image_part = section.tag == Tag::MIPS || (section.image, section.mip) == (0, 0);
         let layer_part =
             section.tag == Tag::TILE || (section.layer_first, section.layer_count) == (0, 0);
         if section.tag.kind().is_some() && !(image_part && layer_part) {
-            self.note(issue::STRAY_PART, entry::GROUP, format_args!("not zero"));
+            self.note(issue::STRAY_PART, entry::IMAGE, format_args!("not zero"));
         }
     }
 
@@ -257,6 +261,7 @@ fn check_order(sections: &[SectionInfo], issues: &mut Issues) {
             let message = format_args!("{} is out of order or repeated", section.tag);
             issues.add(issue::ORDER, Tag::SECT, entry_offset(index), message);
         }
+        // The highest so far: one section that comes too late is one issue.
         previous = previous.max(Some(rank));
     }
     for kind in SECTIONS.iter().filter(|kind| kind.required) {
@@ -274,6 +279,7 @@ fn check_budget(sections: &[SectionInfo], limits: &Limits, issues: &mut Issues) 
         all.filter(|(_, section)| section.tag.kind().is_some())
     };
     let total = known().fold(0_u64, |sum, (_, section)| {
+        // Lengths are what the file claims; their sum may pass 2^64.
         sum.saturating_add(section.raw_bytes)
     });
     if total > limits.total_raw_bytes {

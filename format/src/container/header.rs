@@ -53,6 +53,7 @@ impl Header {
 
     /// Checksum of this header, its own field taken as zero, and of the section table behind it.
     pub(crate) fn checksum_with(&self, table: &[u8]) -> [u8; at::CHECKSUM_BYTES] {
+        // The field cannot cover itself.
         let blank = Self {
             checksum: [0; at::CHECKSUM_BYTES],
             ..*self

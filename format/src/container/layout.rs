@@ -38,7 +38,7 @@ pub(crate) mod entry {
     pub(crate) const STORED_BYTES: usize = 16;
     pub(crate) const RAW_BYTES: usize = 24;
     pub(crate) const HASH: usize = 32;
-    pub(crate) const GROUP: usize = 64;
+    pub(crate) const IMAGE: usize = 64;
     pub(crate) const MIP: usize = 68;
     pub(crate) const LAYER_FIRST: usize = 72;
     pub(crate) const LAYER_COUNT: usize = 76;
@@ -69,7 +69,7 @@ pub(crate) mod meta {
     pub(crate) const SMOOTHING: u64 = 76;
     pub(crate) const OUTLINE_WIDTH: u64 = 82;
     pub(crate) const OUTLINE_PAINT: u64 = 86;
-    /// Of the lattice without an outline; an outline moves it back by its own size.
+    /// Without a distance outline; one moves the lattice back by [`OUTLINE_BYTES`].
     pub(crate) const CURVE_LATTICE: u64 = 83;
     pub(crate) const OUTLINE_BYTES: u64 = 8;
 }
@@ -83,7 +83,7 @@ const _: () = {
         header::BYTES as u64 == ALIGNMENT_BYTES,
         "the table follows the header directly"
     );
-    assert!(entry::GROUP == entry::HASH + 32, "entry fields abut");
+    assert!(entry::IMAGE == entry::HASH + 32, "entry fields abut");
 };
 
 /// `offset` rounded up to the next section boundary; `None` past the end of u64.

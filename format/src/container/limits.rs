@@ -1,10 +1,14 @@
-//! Budgets for reading files that nobody vouches for.
+//! Budgets for reading untrusted files.
 
 /// Upper bounds that reading checks before it allocates. All in bytes after decompression.
 ///
-/// A section's memory is asked for in one piece once its length is known to be what grid, records
-/// and budgets allow; besides that reading holds a few bytes a table entry, and strings in memory
-/// take up to three times their stored length, tiles four thirds.
+/// The memory of a section is allocated in one piece, once its length is known to be what grid,
+/// records and budgets allow. Besides that, reading takes a few bytes for each entry of the section
+/// table. In memory strings take up to three times their stored length, tiles four thirds of it.
+///
+/// The C library unpacks a section into that piece. The decoder in Rust (feature `ruzstd` without
+/// `zstd`) first fills a buffer of its own, which takes up to twice the section's raw length; while
+/// that buffer grows, it and the smaller one take up to three times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// All sections together.

@@ -51,7 +51,7 @@ pub struct SectionInfo {
     /// blake3 of the raw bytes.
     pub hash: [u8; 32],
     /// Image index of a `MIPS` section.
-    pub group: u32,
+    pub image: u32,
     /// Level of a `MIPS` section, 0 finest.
     pub mip: u32,
     /// First layer of a `TILE` section.
@@ -73,7 +73,7 @@ impl SectionInfo {
             stored_bytes: long(at::STORED_BYTES),
             raw_bytes: long(at::RAW_BYTES),
             hash: field(bytes, at::HASH),
-            group: word(at::GROUP),
+            image: word(at::IMAGE),
             mip: word(at::MIP),
             layer_first: word(at::LAYER_FIRST),
             layer_count: word(at::LAYER_COUNT),
@@ -95,7 +95,7 @@ impl SectionInfo {
         );
         put(&mut bytes, at::RAW_BYTES, &self.raw_bytes.to_le_bytes());
         put(&mut bytes, at::HASH, &self.hash);
-        put(&mut bytes, at::GROUP, &self.group.to_le_bytes());
+        put(&mut bytes, at::IMAGE, &self.image.to_le_bytes());
         put(&mut bytes, at::MIP, &self.mip.to_le_bytes());
         put(&mut bytes, at::LAYER_FIRST, &self.layer_first.to_le_bytes());
         put(&mut bytes, at::LAYER_COUNT, &self.layer_count.to_le_bytes());

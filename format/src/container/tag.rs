@@ -35,7 +35,7 @@ impl Tag {
     pub const ENTR: Self = Self(*b"ENTR");
     /// Curve records.
     pub const CURV: Self = Self(*b"CURV");
-    /// Outlines that curve records are cut from: [`crate::CurveSources`].
+    /// Outlines that curve records are cut from: [`crate::StoredOutlines`].
     pub const OUTL: Self = Self(*b"OUTL");
     /// MSDF tiles of a run of layers.
     pub const TILE: Self = Self(*b"TILE");
@@ -89,6 +89,7 @@ pub(crate) struct SectionKind {
 pub(crate) const SECTIONS: [SectionKind; 15] = [
     section(Tag::META, true, true, false),
     section(Tag::SPEC, true, true, false),
+    // SHDR, PROV and SHAP are not critical: lookups do without them.
     section(Tag::SHDR, false, true, false),
     section(Tag::PROV, false, false, false),
     section(Tag::PANT, true, false, false),

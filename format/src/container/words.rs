@@ -13,6 +13,7 @@ pub(crate) fn words_from_little_endian<T: Pod>(records: &mut [T]) {
 
 /// Records of 32-bit words as little-endian bytes.
 pub(crate) fn words_to_little_endian<T: Pod>(records: &[T]) -> Cow<'_, [u8]> {
+    // Sections can be large: nothing is copied where memory is like the file.
     if cfg!(target_endian = "little") {
         return Cow::Borrowed(bytemuck::cast_slice(records));
     }

@@ -1,4 +1,4 @@
 //! From outlines to curve records: what `OUTL` stores and how it is cut to cells.
 
 pub mod cut;
-pub(crate) mod source;
+pub(crate) mod outlines;

@@ -1,31 +1,31 @@
 //! The key of the specialised shader.
 
-use bytemuck::{Pod, Zeroable};
-
 use super::texture::VtexFile;
+use crate::cells::blocks::list_frames;
 use crate::cells::cell::{CellWord, Entry, EntryKind};
 use crate::cells::control::BlendMode;
 use crate::cells::lists::{list_entries, list_lengths};
-use crate::cells::scope::list_frames;
-use crate::records::meta::SamplerSettings;
+use crate::records::meta::{AddressMode, SamplerSettings};
 use crate::records::paint::PaintRecord;
 
 /// Version of the packed words and bindings shared by shaders and loaders. A file whose shader
 /// blob carries another ABI is evaluated with the runtime's own text.
 pub const SHADER_ABI: u32 = 1;
 
-/// What a specialised shader contains, 32 bytes. Same key, same text.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+/// What a specialised shader contains. Same key, same text.
+///
+/// [`SpecKey::for_file`] makes the key that a file stores; a loader's own, which knows of overrides,
+/// is `vtex_shaders::spec_key`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SpecKey {
     /// [`SHADER_ABI`].
     pub abi: u32,
     /// Bits of [`Features`].
     pub features: u32,
-    /// [`crate::AddressMode`] along u.
-    pub address_u: u32,
-    /// [`crate::AddressMode`] along v.
-    pub address_v: u32,
+    /// Address mode along u.
+    pub address_u: AddressMode,
+    /// Address mode along v.
+    pub address_v: AddressMode,
     /// As [`crate::Grid::texels_per_cell`].
     pub texels_per_cell: u32,
     /// Bound of the entry loop: the longest list in the file.
@@ -36,14 +36,28 @@ pub struct SpecKey {
     pub reserved: u32,
 }
 
-const _: () = assert!(size_of::<SpecKey>() == 32, "docs/format.md, SPEC");
+impl Default for SpecKey {
+    /// No features, clamped, all numbers zero.
+    fn default() -> Self {
+        Self {
+            abi: SHADER_ABI,
+            features: 0,
+            address_u: AddressMode::Clamp,
+            address_v: AddressMode::Clamp,
+            texels_per_cell: 0,
+            max_entries: 0,
+            frames: 0,
+            reserved: 0,
+        }
+    }
+}
 
 /// Bits of [`SpecKey::features`]. Code for an absent feature is not in the shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Features;
 
 impl Features {
-    /// Some cell lists entries; without it every cell is empty or a single colour.
+    /// Some cell lists entries; without it every cell is empty or has a single paint.
     pub const LISTS: u32 = 1 << 0;
     /// Some entry is an MSDF tile.
     pub const MSDF: u32 = 1 << 1;
@@ -55,7 +69,7 @@ impl Features {
     pub const TRANSLUCENT: u32 = 1 << 4;
     /// Lookups return alpha in all four channels.
     pub const MASK: u32 = 1 << 5;
-    /// Eq. 2's outline is on.
+    /// The distance outline of eq. 2 is on.
     pub const OUTLINE: u32 = 1 << 6;
     /// The texture matrix is not the identity.
     pub const TEXTURE_MATRIX: u32 = 1 << 7;
@@ -77,31 +91,20 @@ impl Features {
 }
 
 /// The parts of a file that decide what its shader contains.
-#[derive(Clone, Copy, Debug)]
-pub struct SpecParts<'a> {
-    /// Settings of the lookup.
-    pub sampler: &'a SamplerSettings,
-    /// As [`crate::Grid::texels_per_cell`].
-    pub texels_per_cell: u32,
-    /// As [`VtexFile::paints`].
-    pub paints: &'a [PaintRecord],
-    /// As [`VtexFile::cells`].
-    pub cells: &'a [u32],
-    /// As [`VtexFile::entries`].
-    pub entries: &'a [u32],
-    /// Whether image 0 is the canvas' mip chain.
-    pub canvas_mips: bool,
+struct Content<'a> {
+    sampler: &'a SamplerSettings,
+    paints: &'a [PaintRecord],
+    cells: &'a [u32],
+    entries: &'a [u32],
 }
 
-impl<'a> SpecParts<'a> {
+impl<'a> Content<'a> {
     fn of(file: &'a VtexFile) -> Self {
         Self {
             sampler: &file.meta.sampler,
-            texels_per_cell: file.meta.grid.texels_per_cell,
             paints: &file.paints,
             cells: &file.cells,
             entries: &file.entries,
-            canvas_mips: file.spec.features & Features::MIPS != 0,
         }
     }
 
@@ -120,7 +123,7 @@ impl<'a> SpecParts<'a> {
     fn solid_features(&self) -> u32 {
         let words = self.cells.iter();
         let paints = words.filter_map(|&word| match CellWord::decode(word) {
-            Some(CellWord::Solid { paint }) => Some(paint),
+            Some(CellWord::Paint { paint }) => Some(paint),
             _ => None,
         });
         paints.fold(0, |features, paint| features | self.gradient_feature(paint))
@@ -138,12 +141,10 @@ impl<'a> SpecParts<'a> {
     /// The features that content and settings need.
     fn features(&self) -> u32 {
         let flag = |needed: bool, feature| if needed { feature } else { 0 };
-        let identity = SamplerSettings::default().texture_matrix;
-        let moved = self.sampler.texture_matrix != identity;
-        let features = flag(self.canvas_mips, Features::MIPS)
-            | flag(self.sampler.mask, Features::MASK)
-            | flag(moved, Features::TEXTURE_MATRIX)
+        let features = flag(self.sampler.mask, Features::MASK)
+            | flag(self.sampler.is_transformed(), Features::TEXTURE_MATRIX)
             | self.solid_features();
+        // Entries that no cell lists need no code.
         if self.lists().next().is_none() {
             return features;
         }
@@ -194,9 +195,11 @@ impl<'a> SpecParts<'a> {
 
     /// Frames of the deepest list that a cell names; lists that break a rule are passed over.
     fn deepest_list(&self) -> u32 {
+        // Only control entries take frames.
         if self.features() & (Features::CLIPS | Features::GROUPS) == 0 {
             return 0;
         }
+        // Cells share lists; each is parsed once.
         let mut seen = vec![false; self.entries.len() / 2];
         let lists = self.lists().filter_map(|offset_words| {
             let place = offset_words as usize / 2;
@@ -212,30 +215,66 @@ impl<'a> SpecParts<'a> {
 }
 
 impl SpecKey {
-    /// The smallest key for a file's content and settings; only [`Features::MIPS`], which content
-    /// alone does not show, is taken from the file's own key. Bakers end with this.
-    pub fn for_file(file: &VtexFile) -> Self {
-        Self::for_parts(&SpecParts::of(file))
-    }
+    /// Words of `SPEC`.
+    pub const WORDS: usize = 8;
 
-    /// The smallest key of a file that is not put together yet. Words that no rule of the format
-    /// allows are passed over.
-    pub fn for_parts(parts: &SpecParts<'_>) -> Self {
-        let [address_u, address_v] = parts.sampler.address.map(|mode| mode as u32);
+    /// The smallest key for a file's content and settings; only [`Features::MIPS`], which content
+    /// alone does not show, is taken from the file's own key. Bakers end with this. Words that no
+    /// rule of the format allows are passed over.
+    pub fn for_file(file: &VtexFile) -> Self {
+        let content = Content::of(file);
+        let [address_u, address_v] = file.meta.sampler.address;
         Self {
-            abi: SHADER_ABI,
-            features: parts.features(),
+            features: content.features() | (file.spec.features & Features::MIPS),
             address_u,
             address_v,
-            texels_per_cell: parts.texels_per_cell,
-            max_entries: parts.longest_list(),
-            frames: parts.deepest_list(),
-            reserved: 0,
+            texels_per_cell: file.meta.grid.texels_per_cell,
+            max_entries: content.longest_list(),
+            frames: content.deepest_list(),
+            ..Self::default()
         }
     }
 
     /// The features that content and settings of a file need, besides [`Features::MIPS`].
     pub(crate) fn features_of(file: &VtexFile) -> u32 {
-        SpecParts::of(file).features() & !Features::MIPS
+        Content::of(file).features()
+    }
+
+    /// The words of `SPEC`.
+    pub fn encode(&self) -> [u32; Self::WORDS] {
+        [
+            self.abi,
+            self.features,
+            self.address_u as u32,
+            self.address_v as u32,
+            self.texels_per_cell,
+            self.max_entries,
+            self.frames,
+            self.reserved,
+        ]
+    }
+
+    /// Reads the words of `SPEC`; `None` for an address mode that does not exist.
+    pub(crate) fn decode(words: [u32; Self::WORDS]) -> Option<Self> {
+        let [
+            abi,
+            features,
+            address_u,
+            address_v,
+            texels_per_cell,
+            max_entries,
+            frames,
+            reserved,
+        ] = words;
+        Some(Self {
+            abi,
+            features,
+            address_u: AddressMode::from_number(address_u)?,
+            address_v: AddressMode::from_number(address_v)?,
+            texels_per_cell,
+            max_entries,
+            frames,
+            reserved,
+        })
     }
 }

@@ -1,9 +1,7 @@
 //! A whole file as a value.
 
-use bytemuck::Zeroable as _;
-
 use super::spec::{SHADER_ABI, SpecKey};
-use crate::curves::source::CurveSources;
+use crate::curves::outlines::StoredOutlines;
 use crate::records::image::Image;
 use crate::records::layer::LayerRecord;
 use crate::records::meta::Meta;
@@ -37,7 +35,7 @@ pub struct VtexFile {
     pub curves: Vec<u32>,
     /// What `curves` is made from; a file then holds it instead of them, which takes a fraction of
     /// the bytes.
-    pub sources: Option<CurveSources>,
+    pub outlines: Option<StoredOutlines>,
     /// MSDF tiles, layer by layer: [`LayerRecord`].
     pub tiles: Vec<u8>,
     /// Raster images; with [`crate::Features::MIPS`] the first is the canvas itself.
@@ -58,7 +56,7 @@ impl VtexFile {
         let cells = vec![0; columns.saturating_mul(rows)];
         let mut file = Self {
             meta,
-            spec: SpecKey::zeroed(),
+            spec: SpecKey::default(),
             shader: ShaderBlob {
                 abi: SHADER_ABI,
                 wgsl_fragment: String::new(),
@@ -71,7 +69,7 @@ impl VtexFile {
             cells,
             entries: Vec::new(),
             curves: Vec::new(),
-            sources: None,
+            outlines: None,
             tiles: Vec::new(),
             images: Vec::new(),
             provenance: None,

@@ -50,6 +50,7 @@ impl CurveLattice {
         let units_per_cell = units as u32;
         Some(Self {
             units_per_cell,
+            // Half of what 16 bits leave: the box never has more.
             margin_units: (u32::from(u16::MAX) - units_per_cell) / 2,
         })
     }

@@ -52,6 +52,7 @@ impl GradientShape {
     /// `t`. Negative where one circle lies within the other; then every point has a `t`. -1 for a
     /// linear gradient.
     pub fn leading(&self) -> f64 {
+        // In f64: the sign decides whether the gradient is opaque, and near 0 the squares cancel.
         match *self {
             Self::Linear { .. } => -1.0,
             Self::Radial {
@@ -149,6 +150,7 @@ impl Gradient {
             2 => Spread::Repeat,
             _ => return None,
         };
+        // Whatever follows the numbers of the shape must be whole stops.
         let (stops, rest) = stops.as_chunks::<STOP_NUMBERS>();
         let some = (1..=MAX_GRADIENT_STOPS as usize).contains(&stops.len());
         (some && rest.is_empty()).then(|| Self {

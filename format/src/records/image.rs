@@ -32,6 +32,7 @@ impl Image {
 
     /// Levels of a full chain down to 1 x 1.
     pub fn level_count(size: [u32; 2]) -> u32 {
+        // One more than the floor of the binary logarithm.
         u32::BITS - size[0].max(size[1]).max(1).leading_zeros()
     }
 

@@ -19,7 +19,7 @@ pub struct Meta {
     pub grid: Grid,
     /// Full width of the distances an MSDF texel can hold, in texels.
     pub distance_range_texels: f32,
-    /// Largest magnification the geometry was prepared for; 1 shows the canvas at 512 pixels.
+    /// Largest zoom the geometry was prepared for; 1 shows the longer side of the canvas at 512 pixels.
     pub max_zoom: f32,
     /// How lookups address and filter unless the caller overrides it.
     pub sampler: SamplerSettings,
@@ -85,16 +85,16 @@ pub struct SamplerSettings {
     pub smoothing: f32,
     /// Only alpha is wanted: lookups return it in all four channels.
     pub mask: bool,
-    /// Outline from the distance field, eq. 2.
-    pub outline: Option<Outline>,
+    /// The distance outline of eq. 2.
+    pub outline: Option<DistanceOutline>,
 }
 
-/// Eq. 2's outline around every shape that MSDF tiles or curves cover.
+/// The distance outline of eq. 2: a ring around every shape that MSDF tiles or curves cover.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Outline {
+pub struct DistanceOutline {
     /// How far it reaches outside the shape, in texels; less than half the distance range.
     pub width_texels: f32,
-    /// Index of its solid paint.
+    /// Index of its paint, a single colour.
     pub paint: u32,
 }
 
@@ -110,6 +110,23 @@ pub enum AddressMode {
     Mirror = 2,
     /// Nothing: transparent.
     Border = 3,
+}
+
+impl AddressMode {
+    /// All of them; each stands at its own number.
+    pub const ALL: [Self; 4] = [Self::Clamp, Self::Repeat, Self::Mirror, Self::Border];
+
+    /// The mode of a number; `None` when there is none.
+    pub(crate) fn from_number(number: u32) -> Option<Self> {
+        Self::ALL.into_iter().find(|mode| *mode as u32 == number)
+    }
+}
+
+impl SamplerSettings {
+    /// Whether the texture matrix is not the identity.
+    pub fn is_transformed(&self) -> bool {
+        self.texture_matrix != Self::default().texture_matrix
+    }
 }
 
 impl Default for SamplerSettings {

@@ -36,12 +36,12 @@ pub struct ShapeReport {
     /// stored, rounded up; 0 where there was none.
     pub size_texels: u32,
     /// How far that MSDF is off; `None` where it was not measured.
-    pub field_error: Option<FieldError>,
+    pub msdf_error: Option<MsdfError>,
 }
 
 /// Error of an MSDF at the file's largest zoom. Both are finite and not negative.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct FieldError {
+pub struct MsdfError {
     /// Share of probes around the edge, further from it than the bound on the error, that come out
     /// on the wrong side; at most 1.
     pub wrong_share: f32,
@@ -94,7 +94,7 @@ pub enum Finding {
 pub struct Warning {
     /// Stable code.
     pub code: WarningCode,
-    /// SVG feature, such as `linearGradient` or `font-family`.
+    /// SVG feature, such as `filter` or `font-family`.
     pub feature: String,
     /// `id` of the SVG element, empty when it has none.
     pub element: String,

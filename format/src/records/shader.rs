@@ -37,11 +37,13 @@ impl ShaderBlob {
     /// Reads a section's raw bytes, noting what is wrong with them.
     pub(crate) fn decode(bytes: &[u8], issues: &mut Issues) -> Option<Self> {
         let Some((head, body)) = bytes.split_first_chunk::<SHADER_HEAD_BYTES>() else {
-            let message = format_args!("{} bytes are less than its head", bytes.len());
+            let length = bytes.len();
+            let message = format_args!("{length} bytes are less than its head");
             issues.add(issue::SHADER_LENGTH, Tag::SHDR, 0, message);
             return None;
         };
         let [abi, text_bytes, word_count, reserved] = words(head);
+        // In 64 bits: the lengths of a damaged head may add up to more than 32.
         let padded_bytes = u64::from(text_bytes).next_multiple_of(4);
         let expected = padded_bytes + 4 * u64::from(word_count);
         if body.len() as u64 != expected {

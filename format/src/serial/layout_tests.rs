@@ -6,19 +6,19 @@ use std::path::Path;
 
 use vtex_testing::Frozen;
 
-use super::codec;
+use super::canonical;
 use crate::container::header::Header;
 use crate::container::layout::{self, VERSION_MAJOR, VERSION_MINOR};
 use crate::container::section::SectionInfo;
 use crate::container::tag::Tag;
-use crate::curves::source::stream;
+use crate::curves::outlines::stream;
 use crate::records::image::ImageRecord;
 use crate::{
-    AddressMode, BlendMode, CellWord, Codec, CurveHeader, CurveLattice, CurveSources, Entry,
-    EntryKind, FieldError, Finding, Gradient, GradientShape, GradientStop, Grid, LayerRecord,
-    MaskKind, Meta, Outline, PaintRecord, Preparation, Provenance, SamplerSettings, ShaderBlob,
-    ShapeRecord, ShapeReport, SourceOutline, SourceRecord, SourceSegment, SpecKey, Spread, Warning,
-    WarningCode,
+    AddressMode, BlendMode, CellWord, Codec, CurveHeader, CurveLattice, DistanceOutline, Entry,
+    EntryKind, Finding, Gradient, GradientShape, GradientStop, Grid, LayerRecord, MaskKind, Meta,
+    MsdfError, PaintRecord, Preparation, Provenance, RecordParts, SamplerSettings, ShaderBlob,
+    ShapeRecord, ShapeReport, SpecKey, Spread, StoredOutline, StoredOutlines, StoredSegment,
+    Warning, WarningCode,
 };
 
 /// Lines of a record: its size, then offset, name and type of each field. Does not compile when a
@@ -73,7 +73,7 @@ fn offsets() -> String {
             MAGIC, MAJOR, MINOR, SECTION_COUNT, FILE_BYTES, CHECKSUM, CHECKSUM_BYTES, RESERVED, BYTES,
         }),
         constants!("section entry" entry {
-            TAG, CODEC, FLAGS, OFFSET, STORED_BYTES, RAW_BYTES, HASH, GROUP, MIP, LAYER_FIRST,
+            TAG, CODEC, FLAGS, OFFSET, STORED_BYTES, RAW_BYTES, HASH, IMAGE, MIP, LAYER_FIRST,
             LAYER_COUNT, RESERVED, BYTES,
         }),
     ]
@@ -85,8 +85,8 @@ fn records() -> String {
         record!(SpecKey {
             abi: u32,
             features: u32,
-            address_u: u32,
-            address_v: u32,
+            address_u: AddressMode,
+            address_v: AddressMode,
             texels_per_cell: u32,
             max_entries: u32,
             frames: u32,
@@ -215,12 +215,12 @@ fn values() -> String {
     };
     add("header", &header().encode());
     add("section entry", &section().encode());
-    add("META", &codec::encode(&meta(None)));
+    add("META", &canonical::encode(&meta(None)));
     add(
         "META, outline",
-        &codec::encode(&meta(CurveLattice::new(0.25))),
+        &canonical::encode(&meta(CurveLattice::new(0.25))),
     );
-    add("PROV", &codec::encode(&provenance()));
+    add("PROV", &canonical::encode(&provenance()));
     add("SHDR", &shader().encode().expect("short"));
     let t_from_uv = [1.0, 2.0, 3.0];
     add(
@@ -263,7 +263,7 @@ fn section() -> SectionInfo {
         stored_bytes: 0x12,
         raw_bytes: 0x13,
         hash: [0xB0; 32],
-        group: 0x14,
+        image: 0x14,
         mip: 0x15,
         layer_first: 0x16,
         layer_count: 0x17,
@@ -287,7 +287,7 @@ fn meta(curve_lattice: Option<CurveLattice>) -> Meta {
             address: [AddressMode::Mirror, AddressMode::Border],
             smoothing: 0.125,
             mask: true,
-            outline: curve_lattice.map(|_| Outline {
+            outline: curve_lattice.map(|_| DistanceOutline {
                 width_texels: 1.25,
                 paint: 10,
             }),
@@ -307,7 +307,7 @@ fn provenance() -> Provenance {
             preparation: Preparation::SecondMethod,
             finding: Finding::Cusp,
             size_texels: 300,
-            field_error: Some(FieldError {
+            msdf_error: Some(MsdfError {
                 wrong_share: 0.25,
                 p99_px: 0.5,
             }),
@@ -333,7 +333,7 @@ fn shader() -> ShaderBlob {
 fn cells() -> [u32; 3] {
     let cells = [
         CellWord::Empty,
-        CellWord::Solid { paint: 5 },
+        CellWord::Paint { paint: 5 },
         CellWord::List { offset_words: 6 },
     ];
     cells.map(|cell| cell.encode().expect("fits"))
@@ -368,23 +368,23 @@ fn curve_header() -> CurveHeader {
     }
 }
 
-fn sources() -> CurveSources {
-    let line = |from, to| SourceSegment {
+fn sources() -> StoredOutlines {
+    let line = |from, to| StoredSegment {
         from,
         control: None,
         to,
     };
-    let curve = SourceSegment {
+    let curve = StoredSegment {
         control: Some([900, 40]),
         ..line([700, 30], [950, 500])
     };
-    CurveSources {
+    StoredOutlines {
         flatness_units: 0.5,
-        outlines: vec![SourceOutline {
+        outlines: vec![StoredOutline {
             even_odd: true,
             segments: vec![line([0, 0], [700, 30]), curve, line([950, 500], [0, 0])],
         }],
-        records: vec![SourceRecord {
+        records: vec![RecordParts {
             cell: 3,
             outlines: vec![0],
         }],

@@ -1,9 +1,7 @@
 //! A value to the bytes of a file and back.
 
 #[cfg(any(feature = "encode", feature = "decode"))]
-mod codec;
-#[cfg(feature = "decode")]
-mod frame;
+mod canonical;
 #[cfg(all(test, feature = "encode"))]
 mod layout_tests;
 #[cfg(any(feature = "encode", feature = "decode"))]
@@ -20,3 +18,5 @@ pub(crate) mod read;
 mod unpack;
 #[cfg(feature = "encode")]
 pub(crate) mod write;
+#[cfg(feature = "decode")]
+mod zstd_frame;

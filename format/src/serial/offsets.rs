@@ -1,6 +1,6 @@
-//! Offsets in cells and entries between memory, where they are absolute, and file, where they are
-//! how far they are from the one that a baker would most likely give: a list follows the list
-//! before it, a record the record before it. Then nearly all of them are zero.
+//! Offsets in cells and entries. In memory they are absolute. A file stores each as its difference
+//! from the likeliest one: a list follows the list before it, a record the record before it. So
+//! nearly all of them are zero.
 
 use crate::cells::cell::{CELL_TAG_SHIFT, CellWord, EntryKind, KIND_SHIFT};
 use crate::cells::lists::list_lengths;
@@ -15,6 +15,7 @@ pub(crate) fn stored_entries(entries: &[u32], curves: &[u32]) -> Vec<u32> {
     let mut expected = 0;
     for data in record_offsets(&mut stored) {
         let at = *data;
+        // Wrapping both ways: any word in memory comes back, also one that names nothing.
         *data = at.wrapping_sub(expected);
         expected = record_end(curves, at);
     }

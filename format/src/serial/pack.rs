@@ -19,6 +19,7 @@ const LEVELS: [(usize, i32); 2] = [(32 << 10, 19), (usize::MAX, 12)];
 /// When zstd has no memory.
 pub(crate) fn pack(raw: &[u8]) -> std::io::Result<(Codec, Vec<u8>)> {
     let fits = |(most, level): (usize, i32)| (raw.len() <= most).then_some(level);
+    // The last row takes any length.
     let level = LEVELS.into_iter().find_map(fits).unwrap_or_default();
     let frame = zstd::bulk::compress(raw, level)?;
     Ok(if frame.len() < raw.len() {

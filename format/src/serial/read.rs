@@ -5,7 +5,7 @@ use bytemuck::Pod;
 
 use super::levels::level_order;
 use super::unpack::{Refusal, allocate, unpack};
-use super::{codec, offsets, planes};
+use super::{canonical, offsets, planes};
 use crate::check::{self, images::image_records};
 use crate::container::directory::{entry_offset, read_directory, slice};
 use crate::container::error::ReadError;
@@ -15,7 +15,7 @@ use crate::container::limits::Limits;
 use crate::container::section::SectionInfo;
 use crate::container::tag::Tag;
 use crate::container::words::words_from_little_endian;
-use crate::curves::source::{CurveSources, SourceError, stream};
+use crate::curves::outlines::{OutlineError, StoredOutlines, stream};
 use crate::file::spec::SpecKey;
 use crate::file::texture::VtexFile;
 use crate::records::image::{Image, ImageRecord};
@@ -53,6 +53,7 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
     };
     // Lengths of the rest hang on these settings.
     let meta = loader.meta()?;
+    // No `?` before all have been tried: `validate` lists the issues of every section.
     let spec = loader.spec();
     let shader = loader.shader();
     let provenance = loader.provenance();
@@ -68,8 +69,10 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
         .as_deref()
         .and_then(|layers| loader.tiles(&meta, layers));
     let images = images.as_deref().and_then(|records| loader.images(records));
-    let (curves, sources) = curves?;
+    let (curves, outlines) = curves?;
     let (mut cells, mut entries) = (cells?, entries?);
+    // In this order: an entry is stored relative to the end of a record, a cell relative to the end
+    // of a list.
     offsets::entries_from_stored(&mut entries, &curves);
     offsets::cells_from_stored(&mut cells, &entries);
     let file = VtexFile {
@@ -83,7 +86,7 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
         cells,
         entries,
         curves,
-        sources,
+        outlines,
         tiles: tiles?,
         images: images?,
         provenance: provenance?,
@@ -110,6 +113,7 @@ impl Loader<'_> {
     fn unpack(&mut self, index: usize, raw: &mut [u8]) -> Option<()> {
         let section = &self.sections[index];
         let start = section.offset_bytes;
+        // The directory has checked that this does not overflow.
         let stored = slice(self.bytes, start, start + section.stored_bytes);
         let result = unpack(section, stored, raw);
         self.accept(index, result)
@@ -167,7 +171,7 @@ impl Loader<'_> {
 
     fn meta(&mut self) -> Option<Meta> {
         let raw = self.raw(Tag::META)?;
-        let meta = match codec::decode(&raw) {
+        let meta = match canonical::decode(&raw) {
             Ok(meta) => meta,
             Err(message) => {
                 self.issues
@@ -183,7 +187,7 @@ impl Loader<'_> {
         if raw.is_empty() {
             return Some(None);
         }
-        match codec::decode(&raw) {
+        match canonical::decode(&raw) {
             Ok(provenance) => Some(Some(provenance)),
             Err(message) => {
                 self.issues
@@ -195,8 +199,15 @@ impl Loader<'_> {
 
     fn spec(&mut self) -> Option<SpecKey> {
         let &(index, _) = self.all(Tag::SPEC).first()?;
-        self.expect_bytes(index, issue::SPEC_LENGTH, size_of::<SpecKey>() as u64)?;
-        self.records(Tag::SPEC)?.pop()
+        self.expect_bytes(index, issue::SPEC_LENGTH, 4 * SpecKey::WORDS as u64)?;
+        let words: Vec<u32> = self.records(Tag::SPEC)?;
+        let &words = words.first_chunk()?;
+        let key = SpecKey::decode(words);
+        if key.is_none() {
+            let message = format_args!("{}, {}", words[2], words[3]);
+            self.issues.add(issue::SPEC_ADDRESS, Tag::SPEC, 8, message);
+        }
+        key
     }
 
     fn shader(&mut self) -> Option<ShaderBlob> {
@@ -212,7 +223,11 @@ impl Loader<'_> {
     }
 
     /// The curve records, stored or cut from outlines.
-    fn curves(&mut self, meta: &Meta, limits: &Limits) -> Option<(Vec<u32>, Option<CurveSources>)> {
+    fn curves(
+        &mut self,
+        meta: &Meta,
+        limits: &Limits,
+    ) -> Option<(Vec<u32>, Option<StoredOutlines>)> {
         let Some(&(index, _)) = self.all(Tag::OUTL).first() else {
             return Some((self.records(Tag::CURV)?, None));
         };
@@ -223,9 +238,10 @@ impl Loader<'_> {
         let raw: Vec<u8> = self.load(index)?;
         let known = self.sections.iter().filter(|s| s.tag.kind().is_some());
         let spent: u64 = known.map(|section| section.raw_bytes).sum();
+        // What decoding takes counts as if it were stored.
         let budget = limits.total_raw_bytes.saturating_sub(spent);
-        let (words, sources) = self.accept(index, cut_records(&raw, meta, budget))?;
-        Some((words, Some(sources)))
+        let (words, outlines) = self.accept(index, cut_records(&raw, meta, budget))?;
+        Some((words, Some(outlines)))
     }
 
     /// The tiles of all layers, from sections whose layer ranges follow each other.
@@ -251,8 +267,10 @@ impl Loader<'_> {
             self.expect_bytes(index, issue::TILE_BYTES, count_bytes(part))?;
             rest = behind;
         }
+        // Trailing layers without tiles belong to the last section. Without any tile there is none.
         if count_bytes(rest) != 0 || (!parts.is_empty() && !rest.is_empty()) {
-            let message = format_args!("the last {} layers have no TILE", rest.len());
+            let count = rest.len();
+            let message = format_args!("the last {count} layers have no TILE");
             self.issues.add(issue::TILE_PARTS, Tag::SECT, 0, message);
             return None;
         }
@@ -287,6 +305,7 @@ impl Loader<'_> {
             return None;
         }
         let parts = self.all(Tag::MIPS);
+        // Counted first: the `zip` below ends with the shorter of the two.
         let order = level_order(records.iter().map(|record| record.level_count));
         if parts.len() as u64
             != records
@@ -300,8 +319,8 @@ impl Loader<'_> {
         }
         let mut images: Vec<Image> = records.iter().map(ImageRecord::without_levels).collect();
         for ((index, section), (level, image)) in parts.into_iter().zip(order) {
-            if (section.mip, section.group as usize) != (level, image) {
-                let offset = entry_offset(index) + entry::GROUP as u64;
+            if (section.mip, section.image as usize) != (level, image) {
+                let offset = entry_offset(index) + entry::IMAGE as u64;
                 let message = format_args!("should be level {level} of image {image}");
                 self.issues
                     .add(issue::MIP_PARTS, Tag::SECT, offset, message);
@@ -311,6 +330,7 @@ impl Loader<'_> {
             self.expect_bytes(index, issue::MIP_BYTES, expected)?;
             images[image].mips.push(self.load(index)?);
         }
+        // The file has the smallest level first.
         for image in &mut images {
             image.mips.reverse();
         }
@@ -319,10 +339,14 @@ impl Loader<'_> {
 }
 
 /// The records that the bytes of `OUTL` make, in at most `budget` bytes of memory.
-fn cut_records(raw: &[u8], meta: &Meta, budget: u64) -> Result<(Vec<u32>, CurveSources), Refusal> {
-    let refuse = |error: SourceError| {
+fn cut_records(
+    raw: &[u8],
+    meta: &Meta,
+    budget: u64,
+) -> Result<(Vec<u32>, StoredOutlines), Refusal> {
+    let refuse = |error: OutlineError| {
         let kind = match error {
-            SourceError::Work => issue::OUTLINE_BUDGET,
+            OutlineError::Work => issue::OUTLINE_BUDGET,
             _ => issue::OUTLINES,
         };
         (kind, error.to_string())
@@ -330,18 +354,20 @@ fn cut_records(raw: &[u8], meta: &Meta, budget: u64) -> Result<(Vec<u32>, CurveS
     let no_lattice = || (issue::CURVE_LATTICE_USE, "no lattice".to_owned());
     let lattice = meta.curve_lattice.ok_or_else(no_lattice)?;
     let head = stream::decode_head(raw).map_err(refuse)?;
+    // Before anything is allocated: the counts are what the file claims.
     let needed = head.memory_bytes();
     if needed > budget {
         let message = format!("{needed} bytes, {budget} are left of total_raw_bytes");
         return Err((issue::OUTLINE_BUDGET, message));
     }
-    let sources = stream::decode(raw).map_err(refuse)?;
-    let words = sources
+    let outlines = stream::decode(raw).map_err(refuse)?;
+    let words = outlines
         .records_within(&meta.grid, lattice, u64::from(head.words))
         .map_err(refuse)?;
+    // The checksum is of the words that the writer had. It shows a machine that rounds otherwise.
     if !head.vouches_for(&words) {
         let message = "the records are not those that the writer had".to_owned();
         return Err((issue::OUTLINE_RECORDS, message));
     }
-    Ok((words, sources))
+    Ok((words, outlines))
 }

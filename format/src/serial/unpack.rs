@@ -2,18 +2,18 @@
 
 use bytemuck::Pod;
 
-use super::frame::Frame;
+use super::zstd_frame::Frame;
 use crate::container::issue::{self, IssueKind};
 use crate::container::section::{Codec, SectionInfo};
 
-/// Why a section's bytes could not be had.
+/// Why a section's bytes could not be read.
 pub(crate) type Refusal = (IssueKind, String);
 
 /// Unpacks a section into memory of just its raw length.
 ///
-/// What refuses the shell of a frame is [`issue::FRAME`]; blocks that do not unpack, or not to what
-/// was written, are both [`issue::HASH`]: decoders differ in which damage they notice, and so a
-/// file has the same issues with either.
+/// A frame with a bad shell is [`issue::FRAME`]. Blocks that do not unpack and blocks that unpack to
+/// other bytes are both [`issue::HASH`]: decoders differ in the damage they notice, and so a file has
+/// the same issues with either.
 pub(crate) fn unpack(section: &SectionInfo, stored: &[u8], raw: &mut [u8]) -> Result<(), Refusal> {
     let unpacked = match section.codec {
         // The directory has seen that both lengths are equal.
@@ -37,6 +37,7 @@ pub(crate) fn unpack(section: &SectionInfo, stored: &[u8], raw: &mut [u8]) -> Re
 
 /// `None` when the blocks do not unpack to the content.
 fn decode_frame(frame: &Frame<'_>, raw: &mut [u8]) -> Result<Option<()>, Refusal> {
+    // Decoders differ in what they make of another length, so none of them sees one.
     if frame.content_bytes != Some(raw.len() as u64) {
         let bytes = raw.len();
         let message = format!("the frame does not say that it holds {bytes} bytes");

@@ -5,7 +5,7 @@ use zstd::bulk::Compressor;
 use zstd::zstd_safe::CParameter;
 
 use super::*;
-use crate::serial::frame::MAX_BLOCK_BYTES;
+use crate::serial::zstd_frame::MAX_BLOCK_BYTES;
 
 /// Bytes that repeat themselves here and there.
 fn content(u: &mut Unstructured<'_>) -> Result<Vec<u8>> {

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use super::levels::level_order;
 use super::pack::pack;
-use super::{codec, offsets, planes};
+use super::{canonical, offsets, planes};
 use crate::check;
 use crate::container::error::WriteError;
 use crate::container::header::{Header, put};
@@ -14,7 +14,7 @@ use crate::container::layout::{self, MAX_SECTIONS, entry, header, tile_texels};
 use crate::container::section::{Codec, SectionInfo};
 use crate::container::tag::Tag;
 use crate::container::words::words_to_little_endian;
-use crate::curves::source::stream;
+use crate::curves::outlines::stream;
 use crate::file::texture::VtexFile;
 use crate::records::image::ImageRecord;
 use crate::records::layer::LayerRecord;
@@ -70,6 +70,7 @@ impl VtexFile {
         check::file(self, &mut issues);
         issues.accept(Some(()))?;
         let parts = self.parts()?;
+        // Each job has a slot of its own, so the order of the jobs does not show in the bytes.
         let slots: Vec<OnceLock<_>> = parts.iter().map(|_| OnceLock::new()).collect();
         run(parts.len(), &|index| {
             slots[index].get_or_init(|| pack(&parts[index].raw));
@@ -95,16 +96,15 @@ impl VtexFile {
                 format_args!("4 GiB or more"),
             )
         })?;
-        let provenance = self.provenance.as_ref().map(codec::encode);
+        let provenance = self.provenance.as_ref().map(canonical::encode);
+        let spec = self.spec.encode();
         let records: Vec<_> = self.images.iter().map(ImageRecord::of).collect();
         let cells = offsets::stored_cells(&self.cells, &self.entries);
         let entries = offsets::stored_entries(&self.entries, &self.curves);
+        // In the order of `SECTIONS`, on which a reader insists.
         let mut parts = vec![
-            Part::whole(Tag::META, codec::encode(&self.meta)),
-            Part::whole(
-                Tag::SPEC,
-                words_to_little_endian(std::slice::from_ref(&self.spec)),
-            ),
+            Part::whole(Tag::META, canonical::encode(&self.meta)),
+            Part::whole(Tag::SPEC, words_to_little_endian(&spec).into_owned()),
             Part::whole(Tag::SHDR, shader),
             Part::whole(Tag::PROV, provenance.unwrap_or_default()),
             Part::whole(Tag::PANT, words_to_little_endian(&self.paints)),
@@ -118,6 +118,7 @@ impl VtexFile {
         ];
         parts.extend(self.tile_parts());
         parts.extend(self.mip_parts());
+        // A section without content is left out (V2011).
         parts.retain(|part| !part.raw.is_empty());
         if parts.len() > MAX_SECTIONS as usize {
             let message = format_args!("{} sections, {MAX_SECTIONS} at most", parts.len());
@@ -128,8 +129,8 @@ impl VtexFile {
 
     /// The outlines where there are some, else the records.
     fn curve_part(&self) -> Part<'_> {
-        match &self.sources {
-            Some(sources) => Part::whole(Tag::OUTL, stream::encode(sources, &self.curves)),
+        match &self.outlines {
+            Some(outlines) => Part::whole(Tag::OUTL, stream::encode(outlines, &self.curves)),
             None => Part::whole(Tag::CURV, words_to_little_endian(&self.curves)),
         }
     }
@@ -140,6 +141,7 @@ impl VtexFile {
         let bytes = |layer: &LayerRecord| tile_bytes * u64::from(layer.tile_count);
         let mut runs: Vec<(u32, u32, u64)> = Vec::new();
         for (index, layer) in (0_u32..).zip(&self.layers) {
+            // A layer without tiles joins any run: it adds no bytes.
             match runs.last_mut() {
                 Some((_, count, total)) if *total < TILE_PART_BYTES || bytes(layer) == 0 => {
                     *count += 1;
@@ -178,6 +180,7 @@ impl VtexFile {
 
 /// Lays packed sections behind header and table.
 fn assemble(parts: &[Part<'_>], stored: &[(Codec, Vec<u8>)]) -> Vec<u8> {
+    // Room for header and table, which are written last.
     let mut bytes = vec![0; header::BYTES + parts.len() * entry::BYTES];
     let mut table = Vec::with_capacity(parts.len() * entry::BYTES);
     for (part, (codec, payload)) in parts.iter().zip(stored) {
@@ -190,7 +193,7 @@ fn assemble(parts: &[Part<'_>], stored: &[(Codec, Vec<u8>)]) -> Vec<u8> {
             stored_bytes: payload.len() as u64,
             raw_bytes: part.raw.len() as u64,
             hash: *blake3::hash(&part.raw).as_bytes(),
-            group: part.image.0,
+            image: part.image.0,
             mip: part.image.1,
             layer_first: part.layers.0,
             layer_count: part.layers.1,

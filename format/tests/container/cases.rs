@@ -4,8 +4,8 @@
 use std::collections::BTreeSet;
 
 use vtex_format::{
-    CurveLattice, Entry, EntryKind, Features, FieldError, Grid, ISSUES, Image, Issue, LayerRecord,
-    Limits, Outline, ReadError, Tag, VtexFile, validate,
+    AddressMode, CurveLattice, DistanceOutline, Entry, EntryKind, Features, Grid, ISSUES, Image,
+    Issue, LayerRecord, Limits, MsdfError, ReadError, Tag, VtexFile, validate,
 };
 
 use crate::forge::{Forged, put_together, seal, take_apart};
@@ -112,6 +112,8 @@ const CONTENT_CASES: &[FileCase] = &[
         s[PROV].refill(&content);
     }),
     (3030, |s| cut(&mut s[SPEC], 4)),
+    (3035, |s| patch(&mut s[SPEC], 8, &[4])),
+    (3035, |s| patch(&mut s[SPEC], 15, &[1])),
     (3040, |s| s[SHDR].refill(&[0; 8])),
     (3040, |s| patch(&mut s[SHDR], 4, &u32::MAX.to_le_bytes())),
     (3040, |s| patch(&mut s[SHDR], 8, &u32::MAX.to_le_bytes())),
@@ -176,17 +178,17 @@ const VALUE_CASES: &[ValueCase] = &[
     (3033, |f| f.spec.features = 0),
     (3034, |f| f.spec.features |= Features::MASK),
     (3034, |f| f.meta.sampler.outline = None),
-    (3035, |f| f.spec.address_v = 0),
+    (3035, |f| f.spec.address_v = AddressMode::Clamp),
     (3036, |f| f.spec.texels_per_cell = 3),
     (3037, |f| f.spec.max_entries = 2),
     (3037, |f| f.spec.max_entries = 4),
     (3038, |f| f.spec.reserved = 1),
     (3050, |f| f.provenance.as_mut().unwrap().shapes.truncate(2)),
     (3051, |f| f.provenance.as_mut().unwrap().options.reverse()),
-    (3052, |f| field_error(f).wrong_share = 1.5),
-    (3052, |f| field_error(f).wrong_share = f32::NAN),
-    (3052, |f| field_error(f).p99_px = -1.0),
-    (3052, |f| field_error(f).p99_px = f32::INFINITY),
+    (3052, |f| msdf_error(f).wrong_share = 1.5),
+    (3052, |f| msdf_error(f).wrong_share = f32::NAN),
+    (3052, |f| msdf_error(f).p99_px = -1.0),
+    (3052, |f| msdf_error(f).p99_px = f32::INFINITY),
     (3053, |f| *sample::area(f) = f32::NAN),
     (3053, |f| *sample::area(f) = 1.01),
     (4002, |f| {
@@ -249,12 +251,12 @@ const VALUE_CASES: &[ValueCase] = &[
     (6016, |f| f.images.swap(0, 1)),
 ];
 
-fn field_error(file: &mut VtexFile) -> &mut FieldError {
+fn msdf_error(file: &mut VtexFile) -> &mut MsdfError {
     let report = &mut file.provenance.as_mut().unwrap().shapes[1];
-    report.field_error.as_mut().unwrap()
+    report.msdf_error.as_mut().unwrap()
 }
 
-fn outline(file: &mut VtexFile) -> &mut Outline {
+fn outline(file: &mut VtexFile) -> &mut DistanceOutline {
     file.meta.sampler.outline.as_mut().unwrap()
 }
 

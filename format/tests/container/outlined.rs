@@ -1,6 +1,6 @@
 //! Cases of the sample whose curve records are made from outlines.
 
-use vtex_format::{CurveSources, Tag, VtexFile};
+use vtex_format::{StoredOutlines, Tag, VtexFile};
 
 use crate::cases::{FileCase, META, ValueCase, cut, patch};
 use crate::forge::Forged;
@@ -37,21 +37,21 @@ pub(crate) const OUTLINED_CASES: &[FileCase] = &[
 /// For the sample itself.
 pub(crate) const OUTLINED_VALUES: &[ValueCase] = &[
     (3023, |f| f.meta.curve_lattice = None),
-    (5021, |f| sources(f).records[0].cell = 4),
-    (5021, |f| sources(f).records[1].outlines.push(2)),
-    (5021, |f| sources(f).outlines[1].segments.clear()),
+    (5021, |f| outlines(f).records[0].cell = 4),
+    (5021, |f| outlines(f).records[1].outlines.push(2)),
+    (5021, |f| outlines(f).outlines[1].segments.clear()),
     (5021, |f| {
-        sources(f).outlines[0].segments[1].control = Some([-1, 0]);
+        outlines(f).outlines[0].segments[1].control = Some([-1, 0]);
     }),
     (5021, |f| {
-        let record = f.sources.as_ref().unwrap().records[0].clone();
-        sources(f).records.push(record);
+        let record = f.outlines.as_ref().unwrap().records[0].clone();
+        outlines(f).records.push(record);
     }),
     (5022, |f| f.curves[0] ^= 1 << 31),
-    (5022, |f| drop(sources(f).records.pop())),
-    (5022, |f| sources(f).outlines[0].segments[1].control = None),
+    (5022, |f| drop(outlines(f).records.pop())),
+    (5022, |f| outlines(f).outlines[0].segments[1].control = None),
 ];
 
-fn sources(file: &mut VtexFile) -> &mut CurveSources {
-    file.sources.as_mut().unwrap()
+fn outlines(file: &mut VtexFile) -> &mut StoredOutlines {
+    file.outlines.as_mut().unwrap()
 }

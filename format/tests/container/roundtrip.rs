@@ -35,7 +35,7 @@ fn a_file_with_outlines_instead_of_records() {
 fn outlines_and_records_give_the_same_lookups() {
     let outlined = sample::outlined();
     let plain = VtexFile {
-        sources: None,
+        outlines: None,
         ..outlined.clone()
     };
     let read = |file: &VtexFile| VtexFile::parse(&file.to_bytes().unwrap(), &Limits::default());
@@ -92,7 +92,7 @@ fn coarse_levels_of_all_images_come_first() {
         .sections
         .iter()
         .filter(|section| section.tag == Tag::MIPS)
-        .map(|section| (section.mip, section.group, section.raw_bytes))
+        .map(|section| (section.mip, section.image, section.raw_bytes))
         .collect();
     // 5 x 3 has levels 5x3, 2x1, 1x1; 1 x 2 has 1x2, 1x1.
     assert_eq!(

@@ -5,10 +5,10 @@ use arbtest::arbitrary::{Result, Unstructured};
 use bytemuck::Zeroable;
 use vtex_format::{
     AddressMode, COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CellWord, CurveHeader,
-    CurveLattice, CurveSources, Entry, EntryKind, Features, FieldError, Finding, Grid, Image,
-    LayerRecord, Meta, Outline, PaintRecord, Preparation, Provenance, SHADER_ABI, SamplerSettings,
-    ShaderBlob, ShapeRecord, ShapeReport, SourceOutline, SourceRecord, SourceSegment, SpecKey,
-    VtexFile, Warning, WarningCode,
+    CurveLattice, DistanceOutline, Entry, EntryKind, Features, Finding, Grid, Image, LayerRecord,
+    Meta, MsdfError, PaintRecord, Preparation, Provenance, RecordParts, SHADER_ABI,
+    SamplerSettings, ShaderBlob, ShapeRecord, ShapeReport, SpecKey, StoredOutline, StoredOutlines,
+    StoredSegment, VtexFile, Warning, WarningCode,
 };
 
 /// A 2 x 2 grid with every kind of cell and entry, two layers, two images and every section.
@@ -33,7 +33,7 @@ pub(crate) fn small() -> VtexFile {
     ];
     let cells = [
         CellWord::Empty,
-        CellWord::Solid { paint: 3 },
+        CellWord::Paint { paint: 3 },
         CellWord::List { offset_words: 0 },
         CellWord::List { offset_words: 6 },
     ];
@@ -46,7 +46,7 @@ pub(crate) fn small() -> VtexFile {
     let file = VtexFile {
         spec: SpecKey {
             features: Features::MIPS,
-            ..SpecKey::zeroed()
+            ..SpecKey::default()
         },
         shader: ShaderBlob {
             abi: SHADER_ABI,
@@ -91,20 +91,20 @@ pub(crate) fn outlined() -> VtexFile {
     let mut file = small();
     let lattice = file.meta.curve_lattice.unwrap();
     let side = lattice.units_per_cell.cast_signed();
-    let line = |from, to| SourceSegment {
+    let line = |from, to| StoredSegment {
         from,
         control: None,
         to,
     };
     let (a, b) = (side / 4, side + side / 2);
-    let sources = CurveSources {
+    let stored = StoredOutlines {
         flatness_units: 0.5,
         outlines: vec![
-            SourceOutline {
+            StoredOutline {
                 even_odd: false,
                 segments: vec![
                     line([a, a], [b, a]),
-                    SourceSegment {
+                    StoredSegment {
                         from: [b, a],
                         control: Some([b, b]),
                         to: [a, b],
@@ -112,7 +112,7 @@ pub(crate) fn outlined() -> VtexFile {
                     line([a, b], [a, a]),
                 ],
             },
-            SourceOutline {
+            StoredOutline {
                 even_odd: true,
                 segments: vec![
                     line([-a, -a], [2 * b, 7]),
@@ -121,17 +121,17 @@ pub(crate) fn outlined() -> VtexFile {
                 ],
             },
         ],
-        records: vec![source_record(3, &[0]), source_record(3, &[1])],
+        records: vec![record_parts(3, &[0]), record_parts(3, &[1])],
     };
-    file.curves = sources.records(&file.meta.grid, lattice).unwrap();
+    file.curves = stored.records(&file.meta.grid, lattice).unwrap();
     let header = CurveHeader::decode([file.curves[0], file.curves[1]]).unwrap();
     file.entries[9] = header.record_words();
-    file.sources = Some(sources);
+    file.outlines = Some(stored);
     with_key(file)
 }
 
-pub(crate) fn source_record(cell: u32, outlines: &[u32]) -> SourceRecord {
-    SourceRecord {
+pub(crate) fn record_parts(cell: u32, outlines: &[u32]) -> RecordParts {
+    RecordParts {
         cell,
         outlines: outlines.to_vec(),
     }
@@ -157,7 +157,7 @@ fn meta(size_cells: [u32; 2], texels_per_cell: u32) -> Meta {
         max_zoom: 64.0,
         sampler: SamplerSettings {
             address: [AddressMode::Repeat, AddressMode::Border],
-            outline: Some(Outline {
+            outline: Some(DistanceOutline {
                 width_texels: 1.5,
                 paint: 0,
             }),
@@ -230,7 +230,7 @@ fn provenance(shape_count: usize) -> Provenance {
         preparation: Preparation::Simplified,
         finding: Finding::ThinFeature,
         size_texels: 31,
-        field_error: Some(FieldError {
+        msdf_error: Some(MsdfError {
             wrong_share: 0.25,
             p99_px: 1.5,
         }),
@@ -280,9 +280,9 @@ pub(crate) fn arbitrary(u: &mut Unstructured<'_>) -> Result<VtexFile> {
         .collect::<Result<Vec<_>>>()?;
     let layers = any_layers(u)?;
     let tile_count: u32 = layers.iter().map(|layer| layer.tile_count).sum();
-    let (records, sources) = if u.arbitrary()? {
-        let (records, sources) = any_sources(u, &meta.grid)?;
-        (records, Some(sources))
+    let (records, stored) = if u.arbitrary()? {
+        let (records, stored) = any_outlines(u, &meta.grid)?;
+        (records, Some(stored))
     } else {
         (any_records(u)?, None)
     };
@@ -303,7 +303,7 @@ pub(crate) fn arbitrary(u: &mut Unstructured<'_>) -> Result<VtexFile> {
     Ok(with_key(VtexFile {
         spec: SpecKey {
             features: if mips { Features::MIPS } else { 0 },
-            ..SpecKey::zeroed()
+            ..SpecKey::default()
         },
         shader: ShaderBlob {
             abi: u.arbitrary()?,
@@ -313,7 +313,7 @@ pub(crate) fn arbitrary(u: &mut Unstructured<'_>) -> Result<VtexFile> {
         shapes: any_shapes(&layers),
         tiles: tiles((tile_count * texels_per_tile) as usize),
         curves: records.concat(),
-        sources,
+        outlines: stored,
         provenance: None,
         meta,
         paints,
@@ -366,35 +366,35 @@ fn any_records(u: &mut Unstructured<'_>) -> Result<Vec<Vec<u32>>> {
 }
 
 /// Arbitrary outlines of any extent, and the records that they make.
-fn any_sources(u: &mut Unstructured<'_>, grid: &Grid) -> Result<(Vec<Vec<u32>>, CurveSources)> {
+fn any_outlines(u: &mut Unstructured<'_>, grid: &Grid) -> Result<(Vec<Vec<u32>>, StoredOutlines)> {
     let outlines = (0..u.int_in_range(1..=3)?).map(|_| any_outline(u));
     let outlines = outlines.collect::<Result<Vec<_>>>()?;
     let lattice = CurveLattice::new(0.25).unwrap();
     let cells = grid.size_cells[0] * grid.size_cells[1];
-    let mut sources = CurveSources {
+    let mut stored = StoredOutlines {
         flatness_units: f32::from(u.int_in_range(0..=8_u8)?) / 4.0,
-        ..CurveSources::default()
+        ..StoredOutlines::default()
     };
     let mut records = Vec::new();
     for _ in 0..u.int_in_range(1..=4)? {
-        let mut record = source_record(u.int_in_range(0..=cells - 1)?, &[]);
+        let mut record = record_parts(u.int_in_range(0..=cells - 1)?, &[]);
         for _ in 0..u.int_in_range(1..=2)? {
             record.outlines.push(u.choose_index(outlines.len())? as u32);
         }
-        let one = CurveSources {
+        let one = StoredOutlines {
             outlines: outlines.clone(),
             records: vec![record.clone()],
-            ..sources
+            ..stored
         };
         records.push(one.records(grid, lattice).unwrap());
-        sources.records.push(record);
+        stored.records.push(record);
     }
-    sources.outlines = outlines;
-    Ok((records, sources))
+    stored.outlines = outlines;
+    Ok((records, stored))
 }
 
 /// A chain of segments, now and then broken or closed; coordinates small or as large as they go.
-fn any_outline(u: &mut Unstructured<'_>) -> Result<SourceOutline> {
+fn any_outline(u: &mut Unstructured<'_>) -> Result<StoredOutline> {
     let bits = u.int_in_range(4..=31)?;
     let point = |u: &mut Unstructured<'_>| -> Result<[i32; 2]> {
         Ok(u.arbitrary::<[i32; 2]>()?.map(|x| x >> (32 - bits)))
@@ -413,10 +413,10 @@ fn any_outline(u: &mut Unstructured<'_>) -> Result<SourceOutline> {
             (a + (b - a) * share / 8) as i32
         });
         let control = u.arbitrary::<bool>()?.then_some([between[0], to[1]]);
-        segments.push(SourceSegment { from, control, to });
+        segments.push(StoredSegment { from, control, to });
         from = to;
     }
-    Ok(SourceOutline {
+    Ok(StoredOutline {
         even_odd: u.arbitrary()?,
         segments,
     })
@@ -469,7 +469,7 @@ fn any_entries(
 
 fn cell(u: &mut Unstructured<'_>, paints: &[PaintRecord], entry_count: u32) -> Result<u32> {
     let word = match u.int_in_range(0..=2)? {
-        1 => CellWord::Solid {
+        1 => CellWord::Paint {
             paint: u.choose_index(paints.len())? as u32,
         },
         2 if entry_count > 0 => CellWord::List {

@@ -27,7 +27,8 @@ pub(crate) fn filled_buffer(
         .max(MIN_FILLED_BYTES)
         .next_multiple_of(4);
     let buffer = empty_buffer(device, label, size, usage | BufferUsages::COPY_DST)?;
-    // Every record of this crate is whole words long, so no tail is left to pad.
+    // WebGPU copies whole words. Every record of this crate is whole words long, so no tail is left
+    // to pad.
     queue.write_buffer(&buffer, 0, bytes);
     Ok(buffer)
 }
@@ -44,6 +45,7 @@ pub(crate) fn empty_buffer(
     usage: BufferUsages,
 ) -> Result<Buffer, RuntimeError> {
     let limits = device.limits();
+    // Two independent limits: core WebGPU binds 128 MiB of buffers that may hold 256.
     let limit = if usage.contains(BufferUsages::STORAGE) {
         limits
             .max_storage_buffer_binding_size
@@ -74,6 +76,7 @@ pub(crate) async fn read_back(
     size: u64,
 ) -> Result<Vec<u8>, RuntimeError> {
     let staging = checked(device, "read-back", || {
+        // With MAP_READ core WebGPU allows no usage but this.
         let usage = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
         let staging = empty_buffer(device, "vtex read-back", size, usage)?;
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -88,11 +91,13 @@ pub(crate) async fn read_back(
             let _ = mapped.send(result);
         });
     };
+    // Two failures: the callback never came, or it came and says that mapping failed.
     reply(device, ask)
         .await?
         .map_err(|error| RuntimeError::Device(error.to_string()))?;
     let view = staging
         .get_mapped_range(..)
         .map_err(|error| RuntimeError::Device(error.to_string()))?;
+    // A copy: the view borrows the staging buffer, which ends here.
     Ok(view.to_vec())
 }

@@ -38,6 +38,7 @@ impl Camera {
     pub(crate) fn axes(&self) -> Result<[Vec3; 3], RuntimeError> {
         let [position, target, up] = [self.position, self.target, self.up].map(Vec3::from);
         let forward = (target - position).try_normalize();
+        // No length when `up` points along the view or is zero.
         let right = forward.and_then(|f| f.cross(up).try_normalize());
         match (forward, right) {
             (Some(forward), Some(right))
@@ -45,6 +46,7 @@ impl Camera {
                     && self.fov_y_rad > 0.0
                     && self.fov_y_rad < std::f32::consts::PI =>
             {
+                // Not `up` itself, which need not be at a right angle to the view.
                 Ok([right, right.cross(forward), forward])
             }
             _ => Err(RuntimeError::Parameter(format!(

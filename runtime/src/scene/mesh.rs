@@ -6,8 +6,9 @@ use glam::{Vec2, Vec3};
 
 use crate::RuntimeError;
 
-/// Most triangles a scene may hold after its instances are placed. Bounds BVH build time and the
-/// 26-bit budget of a 128 MiB binding of 48-byte triangles; past it [`RuntimeError::Limit`].
+/// Most triangles a scene may hold after its instances are placed. Bounds the time that building a
+/// BVH takes, about a second for a million, and keeps the largest array, 64 bytes a triangle for
+/// shading, below a binding of 128 MiB; past it [`RuntimeError::Limit`].
 pub const MAX_TRIANGLES: usize = 2_000_000;
 
 /// An indexed triangle mesh in object space (right-handed, y up), counter-clockwise seen from
@@ -92,6 +93,7 @@ impl Mesh {
                 Vec3::Y,
                 Vec2::new(0.5 + 0.5 * cos, 0.5 + 0.5 * sin),
             );
+            // The angle turns from +x to +z, clockwise seen from above, hence the later one first.
             mesh.triangles.push([0, 1 + (i + 1) % count, 1 + i]);
         }
         mesh
@@ -109,6 +111,8 @@ impl Mesh {
         for row in 0..=rows {
             let v = row as f32 / rows as f32;
             let ([radius, height], [normal_out, normal_up]) = profile(v);
+            // One column more than there are strips: the seam has u = 0 on one side and u = 1 on the
+            // other, and a shared vertex would run the whole texture backwards in the last strip.
             for column in 0..=columns {
                 let u = column as f32 / columns as f32;
                 // u = 0.5 faces +z; seen from outside u grows to the right.
@@ -122,6 +126,7 @@ impl Mesh {
             for column in 0..columns {
                 let top = row * (columns + 1) + column;
                 let bottom = top + columns + 1;
+                // At a pole one of the two has next to no area: a triangle wasted, no hit changed.
                 mesh.triangles.push([top, bottom, top + 1]);
                 mesh.triangles.push([top + 1, bottom, bottom + 1]);
             }

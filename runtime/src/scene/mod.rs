@@ -181,6 +181,7 @@ impl Scene {
 
 impl RectLight {
     fn is_valid(&self) -> bool {
+        // Not finite when an edge is not, or when the product overflows. The shader divides by it.
         let area = Vec3::from(self.edge_u).cross(self.edge_v.into()).length();
         finite(&self.corner)
             && area.is_finite()
@@ -193,6 +194,7 @@ impl Surface {
     /// Metallic and roughness; Lambert has neither.
     pub(crate) fn parameters(self) -> (f32, f32) {
         match self {
+            // Not read by the shader, but must pass the checks and make a finite record.
             Self::Diffuse => (0.0, 1.0),
             Self::Glossy {
                 metallic,

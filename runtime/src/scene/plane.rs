@@ -32,6 +32,7 @@ pub fn plane(file: VtexFile, options: LoadOptions) -> Scene {
 pub fn plane_camera(file: &VtexFile, view_uv: [f32; 4], film_aspect: f32) -> Camera {
     let aspect = canvas_aspect(file);
     let [left, top, right, bottom] = view_uv;
+    // v grows downwards, y upwards: the two halves have opposite signs.
     let center = [
         (0.5 * (left + right) - 0.5) * aspect,
         0.5 - 0.5 * (top + bottom),

@@ -1,5 +1,7 @@
 //! The picture as it is read back.
 
+use vtex_shaders::srgb;
+
 /// Mean of the samples so far.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
@@ -37,7 +39,7 @@ impl Film {
                 let alpha = pixel[3].clamp(0.0, 1.0);
                 let scale = if alpha > 0.0 { exposure / alpha } else { 0.0 };
                 let straight = [pixel[0] * scale, pixel[1] * scale, pixel[2] * scale];
-                let [r, g, b] = tone_map.apply(straight).map(|c| byte(encode(c)));
+                let [r, g, b] = tone_map.apply(straight).map(|c| byte(srgb::encode(c)));
                 [r, g, b, byte(alpha)]
             })
             .collect()
@@ -49,20 +51,11 @@ impl ToneMap {
         match self {
             Self::Clip => color,
             Self::Reinhard => {
+                // Of the luminance, not of each channel: bright colours keep their hue.
                 let luminance = 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
                 color.map(|c| c * (1.0 + luminance / 16.0) / (1.0 + luminance))
             }
         }
-    }
-}
-
-/// sRGB's transfer function, IEC 61966-2-1, of a value cut to \[0, 1\].
-fn encode(linear: f32) -> f32 {
-    let c = linear.clamp(0.0, 1.0);
-    if c <= 0.003_130_8 {
-        12.92 * c
-    } else {
-        1.055 * c.powf(1.0 / 2.4) - 0.055
     }
 }
 

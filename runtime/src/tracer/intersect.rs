@@ -49,6 +49,7 @@ impl Tracer {
         &self,
         rays: &[RayQuery],
     ) -> Result<Vec<Option<RayHit>>, RuntimeError> {
+        // wgpu can neither bind nor map a buffer of no bytes.
         if rays.is_empty() {
             return Ok(Vec::new());
         }
@@ -65,7 +66,11 @@ impl Tracer {
             let bytes = bytemuck::cast_slice(&records);
             let input = filled_buffer(device, queue, "vtex rays", bytes, BufferUsages::STORAGE)?;
             let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
-            let output = empty_buffer(device, "vtex hits", size, usage)?;
+            // As many hits as the input has rays, padding included: the kernel answers that too, and
+            // WGSL lets a write past an array's end land on another of its elements.
+            let hits = input.size() / size_of::<RayRecord>() as u64;
+            let hits_bytes = hits * size_of::<HitRecord>() as u64;
+            let output = empty_buffer(device, "vtex hits", hits_bytes, usage)?;
             let queries = group(device, &pipeline.query_layout, &[&input, &output]);
             self.submit_rays(pipeline, &queries, workgroups);
             Ok(output)

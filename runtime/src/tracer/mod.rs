@@ -100,9 +100,12 @@ impl Tracer {
                 size[0], size[1],
             )));
         }
+        // The scene first: which code the shader needs depends on the textures' features.
         let buffers = SceneBuffers::upload(device, queue, scene, size, options).await?;
         let pipelines = Pipelines::new(device, buffers.texture_features()).await?;
         checked(device, "film", || {
+            // Buffers, not storage textures: core WebGPU cannot read and write RGBA32Float in place.
+            // New buffers hold zeros, so the film starts black.
             let pixels = u64::from(size[0]) * u64::from(size[1]);
             let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
             let film_sum = empty_buffer(device, "vtex film", pixels * 16, usage)?;
@@ -149,6 +152,8 @@ impl Tracer {
     /// # Errors
     /// [`RuntimeError::Device`] when the device is lost.
     pub async fn accumulate_async(&mut self, samples: u32) -> Result<(), RuntimeError> {
+        // False until the end, so that it stays false on every way out before it: an error, or a
+        // caller that drops the future at an await.
         if !self.film_is_even {
             self.reset();
         }
@@ -191,6 +196,7 @@ impl Tracer {
                 pass.set_bind_group(0, &self.bindings.scene, &[]);
                 pass.set_bind_group(1, &self.bindings.film, &[]);
                 pass.set_bind_group(2, &self.bindings.textures, &[]);
+                // Workgroups of 8 by 8, see `root/render.wgsl`, which drops what lies outside.
                 pass.dispatch_workgroups(self.size[0].div_ceil(8), record.row_count.div_ceil(8), 1);
             }
             if let Some(timer) = &mut self.timer {
@@ -280,6 +286,7 @@ impl Tracer {
         let bytes = read_back(&self.device, &self.queue, &self.film_rays, size).await?;
         let counts: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);
         Ok(TraceStats {
+            // A pixel's count fits 32 bits, a picture's may not.
             rays: counts.into_iter().map(u64::from).sum(),
             device_ns: self.timer.as_ref().map(Timer::total_ns),
             triangles: self.scene.triangle_count(),

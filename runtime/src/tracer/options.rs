@@ -73,6 +73,7 @@ impl TraceOptions {
 
     pub(crate) fn check(&self) -> Result<(), RuntimeError> {
         let scale = self.footprint_scale;
+        // Each comparison is false for NaN, which is refused so.
         if self.max_bounces <= MAX_BOUNCES
             && scale > 0.0
             && scale <= 1.0

@@ -26,6 +26,7 @@ pub(super) struct Passes {
 
 impl Passes {
     pub(super) fn new(size: [u32; 2], sample_first: u32, sample_count: u32) -> Self {
+        // A row of the widest film is just PATHS_PER_PASS, so whole rows always fit.
         let rows = (PATHS_PER_PASS / size[0]).clamp(1, size[1]);
         let samples =
             (PATHS_PER_PASS / rows.saturating_mul(size[0]).max(1)).clamp(1, MAX_SAMPLES_PER_PASS);
@@ -53,6 +54,8 @@ impl Iterator for Passes {
             sample_first: self.sample,
             sample_count: self.samples_per_pass.min(self.sample_end - self.sample),
         };
+        // A pixel's samples are added in the order of their numbers, however they are cut: sums in
+        // f32 depend on the order, and the picture must not depend on the cut.
         self.row += record.row_count;
         if self.row == self.height {
             self.row = 0;

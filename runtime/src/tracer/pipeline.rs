@@ -12,6 +12,8 @@ const UNIFORM: BufferBindingType = BufferBindingType::Uniform;
 const READ: BufferBindingType = BufferBindingType::Storage { read_only: true };
 const WRITE: BufferBindingType = BufferBindingType::Storage { read_only: false };
 
+// Core WebGPU guarantees eight storage buffers a stage. `render` uses seven, so all textures of a
+// scene lie in one.
 /// Bindings of `shaders/wgsl/root/render.wgsl` and `root/intersect.wgsl`, group by group, in order.
 const SCENE_GROUP: &[BufferBindingType] = &[UNIFORM, UNIFORM, READ, READ, READ, READ];
 const FILM_GROUP: &[BufferBindingType] = &[WRITE, WRITE];
@@ -115,6 +117,7 @@ fn layout(device: &Device, label: &str, bindings: &[BufferBindingType]) -> BindG
             ty: wgpu::BindingType::Buffer {
                 ty,
                 has_dynamic_offset: false,
+                // The sizes are in the shader already; wgpu compares at each dispatch.
                 min_binding_size: None,
             },
             count: None,

@@ -27,6 +27,7 @@ impl Timer {
         if !device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
             return Ok(None);
         }
+        // One pair for all submissions: each copies its stamps away before the next writes them.
         let queries = device.create_query_set(&wgpu::QuerySetDescriptor {
             label: Some("vtex timer"),
             ty: wgpu::QueryType::Timestamp,
@@ -76,7 +77,7 @@ impl Timer {
         let spent = stamps
             .chunks(STAMP_STRIDE)
             .take(self.pending as usize)
-            // A driver may reset its clock between the two.
+            // WebGPU lets a driver reset its clock between the two.
             .map(|pair| pair[1].saturating_sub(pair[0]));
         self.ticks += spent.sum::<u64>();
         self.pending = 0;

@@ -58,6 +58,7 @@ impl SceneBuffers {
                 "BVH of {depth} levels: is the mesh degenerate?"
             )));
         }
+        // In the order of the hierarchy, so that a leaf is a first index and a count.
         let order = &bvh.primitive_indices;
         let triangles: Vec<TriangleRecord> = order
             .iter()
@@ -137,6 +138,7 @@ impl SceneBuffers {
 impl World {
     fn new(scene: &Scene) -> Result<Self, RuntimeError> {
         let mut world = Self::default();
+        // Counted before anything is placed: a small mesh with many instances must not fill memory.
         let placed: usize = scene
             .instances
             .iter()
@@ -150,6 +152,7 @@ impl World {
         for instance in &scene.instances {
             world.place(scene, instance);
         }
+        // Each light has a material of its own behind the scene's, see `material_records`.
         for (light, material) in scene.lights.iter().zip(scene.materials.len()..) {
             world.place_light(light, index_u32(material));
         }
@@ -159,6 +162,8 @@ impl World {
     fn place(&mut self, scene: &Scene, instance: &Instance) {
         let mesh = &scene.meshes[instance.mesh];
         let to_world = Affine3A::from_cols_array_2d(&instance.world_from_object);
+        // Inverse transpose: normals stay at right angles to surfaces that are stretched. A matrix
+        // without an inverse gives no numbers, and those become normals of length 0.
         let normal_to_world = to_world.matrix3.inverse().transpose();
         for indices in &mesh.triangles {
             let corners = indices.map(|i| i as usize);
@@ -205,6 +210,8 @@ fn attribute_record(normal_u: [Vec4; 3], [v0, v1, v2]: [f32; 3], material: u32) 
         normal0_u,
         normal1_u,
         normal2_u,
+        // The index as bits. The shader only reinterprets them: small ones are denormal numbers, which
+        // arithmetic may flush to zero.
         v_material: [v0, v1, v2, f32::from_bits(material)],
     }
 }
@@ -214,6 +221,7 @@ impl From<&Triangle> for TriangleRecord {
         let word = |v: Vec3A| v.extend(0.0).to_array();
         Self {
             v0: word(triangle.v0),
+            // Signs and operations as in obvhs, whose CPU traversal must give the same bits.
             edge1: word(triangle.v0 - triangle.v1),
             edge2: word(triangle.v2 - triangle.v0),
         }

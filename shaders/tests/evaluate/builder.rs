@@ -1,8 +1,8 @@
 //! Small files built by hand: a grid of cells of unit scale, without a baker.
 
 use vtex_format::{
-    CellWord, CurveHeader, CurveLattice, Entry, EntryKind, Grid, Image, Meta, PaintRecord,
-    SHADER_ABI, SpecKey, VtexFile,
+    CellWord, CurveHeader, CurveLattice, Entry, EntryKind, Features, Grid, Image, Meta,
+    PaintRecord, SpecKey, VtexFile,
 };
 
 /// Lattice steps a cell.
@@ -32,17 +32,24 @@ pub(crate) fn row_of(columns: u32) -> VtexFile {
     })
 }
 
+/// Gives a file without images the canvas' mip chain.
+pub(crate) fn set_canvas(
+    file: &mut VtexFile,
+    size: [u32; 2],
+    texel: impl Fn(u32, u32, u32) -> [u8; 4],
+) {
+    assert!(file.images.is_empty(), "image 0 is the canvas");
+    file.images.push(image([0.0, 0.0, 1.0, 1.0], size, texel));
+    file.spec.features |= Features::MIPS;
+}
+
 /// A key that differs from the default only in what a test names.
-pub(crate) const fn key(features: u32) -> SpecKey {
+pub(crate) fn key(features: u32) -> SpecKey {
     SpecKey {
-        abi: SHADER_ABI,
         features,
-        address_u: 0,
-        address_v: 0,
         texels_per_cell: TEXELS,
         max_entries: 8,
-        frames: 0,
-        reserved: 0,
+        ..SpecKey::default()
     }
 }
 
@@ -53,7 +60,7 @@ pub(crate) fn paint(file: &mut VtexFile, color: [f32; 4]) -> u32 {
 
 pub(crate) fn set_solid(file: &mut VtexFile, cell: usize, color: [f32; 4]) {
     let paint = paint(file, color);
-    file.cells[cell] = CellWord::Solid { paint }
+    file.cells[cell] = CellWord::Paint { paint }
         .encode()
         .expect("small indices fit");
 }

@@ -1,6 +1,6 @@
 //! Curve records made by hand.
 
-use vtex_format::{CurveHeader, EntryKind, Outline, VtexFile};
+use vtex_format::{CurveHeader, DistanceOutline, EntryKind, VtexFile};
 use vtex_shaders::cpu::Sampler;
 use vtex_shaders::{FilterMode, PackOptions, pack};
 
@@ -248,7 +248,7 @@ fn an_outline_goes_around_curves_as_around_tiles() {
     let mut file = file_of(&square(), CurveHeader::default());
     let ring = paint(&mut file, [0.0, 1.0, 0.0, 1.0]);
     // An eighth of a cell.
-    file.meta.sampler.outline = Some(Outline {
+    file.meta.sampler.outline = Some(DistanceOutline {
         width_texels: TEXELS as f32 / 8.0,
         paint: ring,
     });

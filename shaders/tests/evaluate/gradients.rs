@@ -1,10 +1,11 @@
 //! Gradients: t from the place, a colour from t, and both where entries composite.
 
 use vtex_format::{
-    CellWord, Entry, EntryKind, Features, Gradient, GradientShape, GradientStop, Spread, VtexFile,
+    CellWord, Entry, EntryKind, Features, Gradient, GradientShape, GradientStop, SpecKey, Spread,
+    VtexFile,
 };
 use vtex_shaders::cpu::Sampler;
-use vtex_shaders::{PackOptions, pack, spec_key};
+use vtex_shaders::{PackOptions, pack};
 
 use crate::builder::{paint, push_entries, row_of};
 use crate::formula::{self, Rgba, Term};
@@ -36,7 +37,7 @@ fn gradient_paint(file: &mut VtexFile, gradient: &Gradient) -> u32 {
 fn solid_cell(gradient: &Gradient) -> VtexFile {
     let mut file = row_of(1);
     let paint = gradient_paint(&mut file, gradient);
-    file.cells[0] = CellWord::Solid { paint }.encode().expect("a small index");
+    file.cells[0] = CellWord::Paint { paint }.encode().expect("a small index");
     file
 }
 
@@ -125,7 +126,7 @@ fn color_at(gradient: &Gradient, uv: [f64; 2]) -> Option<[f32; 4]> {
 
 fn compare(gradient: &Gradient) -> u32 {
     let file = solid_cell(gradient);
-    let features = spec_key(&file).features;
+    let features = SpecKey::for_file(&file).features;
     assert_eq!(features, Features::GRADIENTS, "a cell's paint counts");
     let words = pack(&file, &PackOptions::default());
     let sampler = Sampler::new(&words);
@@ -244,7 +245,7 @@ fn a_gradient_composites_as_a_colour_does() {
     });
     push_entries(&mut file, 0, &entries);
     let expected = Features::LISTS | Features::TRANSLUCENT | Features::GRADIENTS;
-    assert_eq!(spec_key(&file).features, expected);
+    assert_eq!(SpecKey::for_file(&file).features, expected);
     let term = |color| Term {
         coverage: [1.0, 0.0],
         color: [color; 2],

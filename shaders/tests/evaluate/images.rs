@@ -1,22 +1,20 @@
 //! Raster mips and patches.
 
-use vtex_format::{AddressMode, Entry, EntryKind, Features, VtexFile};
+use vtex_format::{AddressMode, Entry, EntryKind, Features, SpecKey, VtexFile};
 use vtex_shaders::cpu::Sampler;
-use vtex_shaders::{FilterMode, PackOptions, pack, spec_key};
+use vtex_shaders::{FilterMode, PackOptions, pack};
 
-use crate::builder::{image, push_entries, row_of, set_solid};
+use crate::builder::{image, push_entries, row_of, set_canvas, set_solid};
 use crate::{FILTERS, check, formula, sample};
-
-const CANVAS: [f32; 4] = [0.0, 0.0, 1.0, 1.0];
 
 /// One white cell over a 16 x 16 chain whose level k is opaque grey of byte `200 - 40 k`.
 fn grey_levels() -> VtexFile {
     let mut file = row_of(1);
     set_solid(&mut file, 0, [1.0; 4]);
-    file.images.push(image(CANVAS, [16, 16], |level, _, _| {
+    set_canvas(&mut file, [16, 16], |level, _, _| {
         let grey = 200 - 40 * level as u8;
         [grey, grey, grey, 255]
-    }));
+    });
     file
 }
 
@@ -63,9 +61,9 @@ fn no_step_between_footprints() {
 #[test]
 fn texels_are_linear_light_with_centres_at_one_half() {
     let mut file = row_of(1);
-    file.images.push(image(CANVAS, [4, 1], |_, x, _| {
+    set_canvas(&mut file, [4, 1], |_, x, _| {
         [if x == 1 { 188 } else { 0 }, 0, 0, 255]
-    }));
+    });
     let peak = formula::decode(188.0 / 255.0);
     for (u, weight) in [
         (0.375, 1.0),
@@ -82,9 +80,9 @@ fn texels_are_linear_light_with_centres_at_one_half() {
 #[test]
 fn the_chain_wraps_where_the_address_mode_repeats() {
     let mut file = row_of(1);
-    file.images.push(image(CANVAS, [4, 4], |_, x, _| {
+    set_canvas(&mut file, [4, 4], |_, x, _| {
         [0, if x == 0 { 255 } else { 0 }, 0, 255]
-    }));
+    });
     for (mode, expected) in [
         (AddressMode::Clamp, 0.0),
         (AddressMode::Mirror, 0.0),
@@ -126,7 +124,7 @@ fn patched(alpha: u8) -> VtexFile {
 fn patches_composite_like_paints_inside_their_rectangle() {
     let file = patched(255);
     assert_eq!(
-        spec_key(&file).features & Features::MIPS,
+        SpecKey::for_file(&file).features & Features::MIPS,
         0,
         "a patch is no canvas chain"
     );

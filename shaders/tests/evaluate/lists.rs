@@ -1,6 +1,6 @@
 //! Cells, coverage, compositing, outline, mask.
 
-use vtex_format::{Outline, VtexFile};
+use vtex_format::{DistanceOutline, VtexFile};
 use vtex_shaders::FilterMode;
 
 use crate::builder::{Cover, RANGE, TEXELS, paint, row_of, set_list, set_solid, stored};
@@ -138,7 +138,7 @@ fn check_stack(stack: &[(Cover, [f32; 4])], ring: Option<(f32, [f32; 4])>) {
     set_list(&mut file, 0, stack);
     if let Some((width_texels, color)) = ring {
         let paint = paint(&mut file, color);
-        file.meta.sampler.outline = Some(Outline {
+        file.meta.sampler.outline = Some(DistanceOutline {
             width_texels,
             paint,
         });

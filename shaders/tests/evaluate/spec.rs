@@ -1,17 +1,17 @@
 //! Keys from contents, and text from keys.
 
-use vtex_format::{AddressMode, Features, Outline};
-use vtex_shaders::{BindingSlot, PackOptions, fragment, spec_key, spec_key_with};
+use vtex_format::{AddressMode, DistanceOutline, Features, SamplerSettings, SpecKey};
+use vtex_shaders::{BindingSlot, FilterMode, PackOptions, fragment, spec_key};
 
-use crate::builder::{Cover, image, key, paint, row_of, set_list, set_solid};
+use crate::builder::{Cover, key, paint, row_of, set_canvas, set_list, set_solid};
 
 #[test]
 fn keys_say_what_a_file_holds() {
     let mut file = row_of(3);
-    assert_eq!(spec_key(&file).features, 0);
+    assert_eq!(SpecKey::for_file(&file).features, 0);
     set_solid(&mut file, 0, [1.0, 1.0, 1.0, 0.5]);
     assert_eq!(
-        spec_key(&file).features,
+        SpecKey::for_file(&file).features,
         0,
         "a translucent cell is one colour all the same"
     );
@@ -20,17 +20,20 @@ fn keys_say_what_a_file_holds() {
         1,
         &[(Cover::Edge(1.0), [1.0; 4]), (Cover::Full, [1.0; 4])],
     );
-    assert_eq!(spec_key(&file).features, Features::LISTS | Features::MSDF);
-    assert_eq!(spec_key(&file).max_entries, 2);
+    assert_eq!(
+        SpecKey::for_file(&file).features,
+        Features::LISTS | Features::MSDF
+    );
+    assert_eq!(SpecKey::for_file(&file).max_entries, 2);
     let glass = [1.0, 1.0, 1.0, 0.5];
-    let outline = Outline {
+    let outline = DistanceOutline {
         width_texels: 0.5,
         paint: paint(&mut file, glass),
     };
     let mut outlined = file.clone();
     outlined.meta.sampler.outline = Some(outline);
     let expected = Features::LISTS | Features::MSDF | Features::OUTLINE | Features::TRANSLUCENT;
-    assert_eq!(spec_key(&outlined).features, expected);
+    assert_eq!(SpecKey::for_file(&outlined).features, expected);
     set_list(
         &mut file,
         2,
@@ -40,11 +43,10 @@ fn keys_say_what_a_file_holds() {
             (Cover::Full, glass),
         ],
     );
-    assert_eq!(spec_key(&file).max_entries, 3);
-    assert_ne!(spec_key(&file).features & Features::TRANSLUCENT, 0);
-    file.images
-        .push(image([0.0, 0.0, 1.0, 1.0], [2, 2], |_, _, _| [0; 4]));
-    assert_ne!(spec_key(&file).features & Features::MIPS, 0);
+    assert_eq!(SpecKey::for_file(&file).max_entries, 3);
+    assert_ne!(SpecKey::for_file(&file).features & Features::TRANSLUCENT, 0);
+    set_canvas(&mut file, [2, 2], |_, _, _| [0; 4]);
+    assert_ne!(SpecKey::for_file(&file).features & Features::MIPS, 0);
 }
 
 #[test]
@@ -55,13 +57,25 @@ fn overrides_change_the_key() {
         texture_matrix: Some([2.0, 0.0, 0.0, 2.0, 0.0, 0.0]),
         ..PackOptions::default()
     };
-    let key = spec_key_with(&file, &options);
-    assert_eq!((key.address_u, key.address_v), (2, 3));
+    let key = spec_key(&file, &options);
+    let modes = [key.address_u, key.address_v];
+    assert_eq!(modes, [AddressMode::Mirror, AddressMode::Border]);
     assert_eq!(key.features, Features::TEXTURE_MATRIX);
-    assert_eq!(
-        spec_key_with(&file, &PackOptions::default()),
-        spec_key(&file)
-    );
+    let stored = SpecKey::for_file(&file);
+    assert_eq!(spec_key(&file, &PackOptions::default()), stored);
+    let filtered = PackOptions {
+        filter: FilterMode::Footprint,
+        texture_matrix: Some(SamplerSettings::default().texture_matrix),
+        ..PackOptions::default()
+    };
+    let mut moved = file.clone();
+    moved.meta.sampler.texture_matrix[4] = 0.5;
+    assert_eq!(SpecKey::for_file(&moved).features, Features::TEXTURE_MATRIX);
+    let back = SpecKey {
+        features: Features::RAMPS,
+        ..stored
+    };
+    assert_eq!(spec_key(&moved, &filtered), back, "overridden again");
 }
 
 #[test]
@@ -138,7 +152,7 @@ fn code_of_absent_features_is_not_in_the_text() {
         }
     }
     let mut repeats = key(0);
-    repeats.address_v = AddressMode::Repeat as u32;
+    repeats.address_v = AddressMode::Repeat;
     assert!(fragment(&repeats, BindingSlot::default()).contains("vtex_address_axis"));
 }
 

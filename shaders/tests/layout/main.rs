@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use naga::{AddressSpace, Handle, Module, ScalarKind, StorageAccess, Type, TypeInner};
-use vtex_format::{Features, SHADER_ABI, SpecKey};
+use vtex_format::{AddressMode, Features, SHADER_ABI, SpecKey};
 use vtex_shaders::layout::{CONSTANTS, OFFSET_END};
 use vtex_shaders::{BindingSlot, batch_kernel, scene_evaluator};
 use vtex_testing::Frozen;
@@ -18,8 +18,8 @@ fn the_gpu_layout_changes_only_with_shader_abi() {
     let key = SpecKey {
         abi: SHADER_ABI,
         features: Features::ALL,
-        address_u: 0,
-        address_v: 0,
+        address_u: AddressMode::Clamp,
+        address_v: AddressMode::Clamp,
         texels_per_cell: 8,
         max_entries: 8,
         frames: 0,
@@ -35,7 +35,7 @@ fn the_gpu_layout_changes_only_with_shader_abi() {
     ];
     Frozen {
         folder: &Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/layout"),
-        constant: "SHADER_ABI (format/src/spec.rs)",
+        constant: "SHADER_ABI (format/src/file/spec.rs)",
         version: &SHADER_ABI.to_string(),
         text: &text.concat(),
     }

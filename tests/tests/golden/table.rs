@@ -186,6 +186,10 @@ fn words(field: &str) -> Vec<String> {
 }
 
 /// A trial of its own: this suite has no `#[test]`.
+#[expect(
+    clippy::missing_assert_message,
+    reason = "a test, whose values say what is wrong"
+)]
 pub(crate) fn rows_are_read_strictly() {
     let good = "blur\t35\t34.5\t40\tRasterPatch:filter\tyes\tgpu 8x\t-\tneeds a better blur";
     let good = parse(good).unwrap();

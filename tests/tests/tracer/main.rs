@@ -17,10 +17,10 @@ use vtex_runtime::{
 };
 use vtex_tests::gpu::shared as gpu;
 
-/// A file of single-colour cells, `size` columns and rows; `colors` row by row from the top,
+/// A file of cells of a single paint, `size` columns and rows; `colors` row by row from the top,
 /// straight alpha, sRGB-encoded.
 fn cells_file(size: [u32; 2], colors: &[[f32; 4]]) -> VtexFile {
-    let solid = |paint| CellWord::Solid { paint }.encode().unwrap();
+    let solid = |paint| CellWord::Paint { paint }.encode().unwrap();
     let canvas_size = size.map(|side| side as f32 * 10.0);
     let mut file = VtexFile {
         paints: colors.iter().map(|&c| PaintRecord::solid(c)).collect(),

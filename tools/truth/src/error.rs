@@ -7,7 +7,7 @@ use vtex_runtime::RuntimeError;
 #[non_exhaustive]
 pub enum TruthError {
     /// The pixels do not fit into memory.
-    #[error("cannot allocate the reference picture")]
+    #[error("not enough memory for the picture")]
     Memory,
     /// The PNG encoder refused the picture.
     #[error("cannot encode PNG: {0}")]

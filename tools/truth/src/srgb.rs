@@ -1,6 +1,6 @@
 //! The sRGB transfer function, IEC 61966-2-1.
 
-pub use vtex_shaders::cpu::color::{decode_channel as decode, encode_channel as encode};
+pub use vtex_shaders::srgb::{decode, decode_table, encode};
 
 /// A value in \[0, 1\] as a byte, rounded; outside it is clamped.
 #[expect(
@@ -10,11 +10,6 @@ pub use vtex_shaders::cpu::color::{decode_channel as decode, encode_channel as e
 )]
 pub fn byte(value: f32) -> u8 {
     (value * 255.0 + 0.5).clamp(0.0, 255.0) as u8
-}
-
-/// Linear values of the 256 encoded bytes.
-pub fn decode_table() -> [f32; 256] {
-    std::array::from_fn(|code| decode(code as f32 / 255.0))
 }
 
 #[cfg(test)]

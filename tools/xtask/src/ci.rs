@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, ensure};
 
-use crate::tidy;
 use crate::workspace::Workspace;
+use crate::{package, tidy};
 
 /// How a step ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,6 +34,8 @@ const WASM: &str = "wasm32-unknown-unknown";
 const STEPS: &[Step] = &[
     ("format", |ws, _| cargo(ws, &["fmt", "--all", "--check"])),
     ("tidy", |ws, _| Ok(outcome(tidy::run(ws)?))),
+    // What crates.io would get, not built.
+    ("package", |ws, _| Ok(outcome(package::run(ws)?))),
     ("clippy", |ws, _| {
         let lint = [
             "clippy",
@@ -55,14 +57,12 @@ const STEPS: &[Step] = &[
     ("test", |ws, left_out| {
         tests(ws, left_out, &["--release", "--workspace", "--locked"])
     }),
-    // The same reader with overflow checks, which the release profile leaves out; and with both
-    // decoders, which a test compares.
+    // The same reader once more: with overflow checks, which the release profile leaves out, and with
+    // the decoder in Rust, which no other step runs files through.
     ("test-overflow", |ws, left_out| {
-        tests(
-            ws,
-            left_out,
-            &["-p", "vtex-format", "--features", "ruzstd", "--locked"],
-        )
+        let format = ["-p", "vtex-format", "--locked", "--no-default-features"];
+        let features = ["--features", "encode,decode,ruzstd"];
+        tests(ws, left_out, &[&format[..], &features].concat())
     }),
     ("deny", |ws, _| {
         if !has_deny(ws) {

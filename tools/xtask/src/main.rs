@@ -8,6 +8,7 @@ mod bakes;
 mod ci;
 mod corpus;
 mod drawings;
+mod package;
 mod rooms;
 mod tidy;
 mod workspace;

@@ -61,7 +61,7 @@ impl<'p> ListEncoder<'p> {
     pub(super) fn push_cell(&mut self, blocks: &[Block<'_>]) -> Result<(), BakeError> {
         let word = match blocks {
             [] => CellWord::Empty,
-            [Block::Entry(Draft::Full { paint })] => CellWord::Solid { paint: *paint },
+            [Block::Entry(Draft::Full { paint })] => CellWord::Paint { paint: *paint },
             blocks => CellWord::List {
                 offset_words: self.list_offset(blocks)?,
             },
@@ -189,7 +189,7 @@ impl<'p> ListEncoder<'p> {
             .map_err(|_| BakeError::Limit("the cells' curves are too many".into()))?;
         curves.extend(words);
         self.records.insert(words.clone(), offset);
-        self.lists.sources.push(draft.source.clone());
+        self.lists.record_parts.push(draft.record_parts.clone());
         Ok(offset)
     }
 }

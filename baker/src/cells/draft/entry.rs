@@ -1,6 +1,6 @@
 //! Entries of one cell before tiles and records have offsets.
 
-use vtex_format::{SourceRecord, cut::CellCurves};
+use vtex_format::{RecordParts, cut::CellCurves};
 
 use crate::{
     cells::{
@@ -32,7 +32,7 @@ pub(super) struct CurvesDraft<'a> {
     rank: u32,
     rule: FillRule,
     parts: Vec<&'a CellCurves>,
-    pub(super) source: SourceRecord,
+    pub(super) record_parts: RecordParts,
     pub(super) words: Vec<u32>,
 }
 
@@ -76,7 +76,7 @@ fn draft_item<'a>(input: &CellInput<'a>, present: Present, cell: u32) -> Vec<Dra
     let index = item as usize;
     let paint = input.paint_or_image[index];
     // The index names an image here, not a paint.
-    if input.placed[index].kind == PlacedKind::Patch {
+    if input.placed[index].kind == PlacedKind::Image {
         return vec![Draft::Image { image: paint }];
     }
     if full {
@@ -113,7 +113,7 @@ pub(super) fn draft_curves<'a>(
         // Invariant: `cover` has encoded every part alone, so that cannot fail here.
         words: encode_record(&[part], rule).unwrap_or_default(),
         parts: vec![part],
-        source: SourceRecord {
+        record_parts: RecordParts {
             cell,
             outlines: vec![item],
         },
@@ -173,7 +173,9 @@ impl CurvesDraft<'_> {
             return false;
         };
         (self.parts, self.words) = (parts, words);
-        self.source.outlines.extend(&other.source.outlines);
+        self.record_parts
+            .outlines
+            .extend(&other.record_parts.outlines);
         true
     }
 }

@@ -24,7 +24,7 @@ fn random_items(random: &mut Random, count: usize, size: f64) -> Vec<Placed> {
                 0 => FillRule::NonZero,
                 _ => FillRule::EvenOdd,
             };
-            Placed::new(random_outline(random, size), rule, PlacedKind::Patch)
+            Placed::new(random_outline(random, size), rule, PlacedKind::Image)
         })
         .collect()
 }
@@ -109,7 +109,7 @@ fn members_of_a_rank_keep_their_distance_at_every_point() {
 fn shapes_that_fill_the_window_and_shapes_beside_it() {
     let square = |low: f64, high: f64| {
         let path = kurbo::Shape::to_path(&Rect::new(low, low, high, high), 0.1);
-        Placed::new(path, FillRule::NonZero, PlacedKind::Patch)
+        Placed::new(path, FillRule::NonZero, PlacedKind::Image)
     };
     // Two backgrounds larger than the window, a dot, and something far outside.
     let items = [

@@ -12,9 +12,9 @@ use super::CurveError;
 /// Largest coordinate in units. Up to here f64 keeps cuts far more precise than a unit. A canvas of
 /// 128 cells is 2^23 units wide.
 const MAX_COORDINATE: f64 = (1_u64 << 40) as f64;
-/// Most quadratics that a monotone piece of a cubic becomes. A piece that needs more is less exact
+/// Most quadratics that a monotone part of a cubic becomes. A part that needs more is less exact
 /// than asked. An arc across the whole canvas at the largest zoom takes about 30.
-const MAX_PIECES: u32 = 1024;
+const MAX_QUADS: u32 = 1024;
 /// Share of a cubic's parameter range that one quadratic covers at least, whatever its error.
 const SHORTEST_STEP: f64 = 1.0 / 1024.0;
 /// How much longer than the last step the next may be.
@@ -207,9 +207,9 @@ impl Lowering {
     /// allows.
     fn monotone_cubic(&mut self, cubic: &CubicBez, forward: bool) {
         let mut from = 0.0;
-        // Try the whole piece first: most need one quadratic.
+        // Try the whole part first: most need one quadratic.
         let mut step = 1.0_f64;
-        for _ in 0..MAX_PIECES {
+        for _ in 0..MAX_QUADS {
             let (to, quad) = longest_quad(cubic, from, step, self.tolerance);
             self.push_along(forward, quad.p0.round(), quad.p1, quad.p2.round());
             if to >= 1.0 {

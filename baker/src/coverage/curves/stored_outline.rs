@@ -1,22 +1,22 @@
 //! Lowered outlines as the file stores them, section `OUTL`.
 
 use kurbo::Point;
-use vtex_format::{SourceOutline, SourceSegment};
+use vtex_format::{StoredOutline, StoredSegment};
 
 use super::lower::{LoweredOutline, Segment};
 use crate::drawing::FillRule;
 
 /// The outline as stored; `None` when it is empty or a coordinate does not fit the format's 32
 /// bits.
-pub(crate) fn stored_outline(lowered: &LoweredOutline, rule: FillRule) -> Option<SourceOutline> {
-    let segments: Option<Vec<SourceSegment>> = lowered.segments.iter().map(segment).collect();
-    Some(SourceOutline {
+pub(crate) fn stored_outline(lowered: &LoweredOutline, rule: FillRule) -> Option<StoredOutline> {
+    let segments: Option<Vec<StoredSegment>> = lowered.segments.iter().map(segment).collect();
+    Some(StoredOutline {
         even_odd: rule == FillRule::EvenOdd,
         segments: segments.filter(|segments| !segments.is_empty())?,
     })
 }
 
-fn segment(segment: &Segment) -> Option<SourceSegment> {
+fn segment(segment: &Segment) -> Option<StoredSegment> {
     let [start, end] = [segment.start, segment.end].map(lattice_point);
     let control = match segment.control {
         Some(control) => Some(lattice_point(control)?),
@@ -28,7 +28,7 @@ fn segment(segment: &Segment) -> Option<SourceSegment> {
     } else {
         (end?, start?)
     };
-    Some(SourceSegment { from, control, to })
+    Some(StoredSegment { from, control, to })
 }
 
 /// A point of the lattice; `None` beyond 32 bits.

@@ -4,7 +4,7 @@
 //! would cost with curves alone, so a small and a large drawing are judged alike.
 
 use rayon::prelude::*;
-use vtex_format::{FieldError, Finding};
+use vtex_format::{Finding, MsdfError};
 
 use super::{
     candidate::Candidate,
@@ -57,7 +57,7 @@ struct Trial {
 struct Choice {
     size: u32,
     trials: Vec<Option<Trial>>,
-    fields: Vec<bool>,
+    msdfs: Vec<bool>,
     cost: f64,
 }
 
@@ -101,7 +101,7 @@ pub(super) fn choose(
     };
     // The trials stay for the report even if no MSDF is used.
     if best.cost >= curves {
-        best.fields.fill(false);
+        best.msdfs.fill(false);
     }
     best.into_judgement(config.msdf_size)
 }
@@ -109,13 +109,11 @@ pub(super) fn choose(
 impl Choice {
     /// `msdf_size` is the size of the lattice if no shape becomes an MSDF.
     fn into_judgement(self, msdf_size: u32) -> Judgement {
-        let has_fields = self.fields.contains(&true);
-        let verdicts = self.trials.into_iter().zip(self.fields);
+        let has_msdfs = self.msdfs.contains(&true);
+        let verdicts = self.trials.into_iter().zip(self.msdfs);
         Judgement {
-            verdicts: verdicts
-                .map(|(trial, field)| verdict(trial, field))
-                .collect(),
-            msdf_size: if has_fields { self.size } else { msdf_size },
+            verdicts: verdicts.map(|(trial, msdf)| verdict(trial, msdf)).collect(),
+            msdf_size: if has_msdfs { self.size } else { msdf_size },
         }
     }
 }
@@ -133,7 +131,7 @@ fn subjects(drawing: &Drawing, longer_side_px: f64) -> Vec<Option<Subject>> {
                 prepared,
             })
         }
-        Item::Patch(_) | Item::Clip(_) => None,
+        Item::Image(_) | Item::Clip(_) => None,
     };
     drawing.items.par_iter().map(subject).collect()
 }
@@ -171,18 +169,18 @@ impl Choosing {
 
     /// The drawing's cost on the candidate's lattice, relative to `whole`. Shapes with a `true` may
     /// become MSDFs; they do if that is cheaper.
-    fn cost(&self, candidate: &Candidate, may_be_fields: &[bool]) -> f64 {
-        let cost_of = |(subject, &may_be_field): (&Option<Subject>, &bool)| {
+    fn cost(&self, candidate: &Candidate, may_be_msdfs: &[bool]) -> f64 {
+        let cost_of = |(subject, &may_be_msdf): (&Option<Subject>, &bool)| {
             let subject = subject.as_ref()?;
-            let [field, curves] = subject.costs(candidate);
+            let [msdf, curves] = subject.costs(candidate);
             // A shape takes the cheaper kind, so the sum is a lower bound while nothing is known to
             // fail.
-            let is_field = may_be_field && subject.pays_as_field(candidate, self.whole);
-            Some(if is_field { field } else { curves })
+            let is_msdf = may_be_msdf && subject.pays_as_msdf(candidate, self.whole);
+            Some(if is_msdf { msdf } else { curves })
         };
         self.subjects
             .iter()
-            .zip(may_be_fields)
+            .zip(may_be_msdfs)
             .filter_map(cost_of)
             .fold(ground(&candidate.lattice, self.mip0_size), Cost::plus)
             .relative_to(self.whole)
@@ -199,12 +197,12 @@ impl Choosing {
         let within: Vec<bool> = trials.iter().map(sound).collect();
         let pays = |subject: &Option<Subject>| {
             let subject = subject.as_ref();
-            subject.is_some_and(|subject| subject.pays_as_field(candidate, self.whole))
+            subject.is_some_and(|subject| subject.pays_as_msdf(candidate, self.whole))
         };
         Choice {
             size: candidate.size,
             cost: self.cost(candidate, &within),
-            fields: self
+            msdfs: self
                 .subjects
                 .iter()
                 .zip(&within)
@@ -227,9 +225,9 @@ impl Subject {
 
     /// Whether an MSDF costs less than curves. A shape that does not show costs nothing either way
     /// and becomes curves.
-    fn pays_as_field(&self, candidate: &Candidate, whole: Cost) -> bool {
-        let [field, curves] = self.costs(candidate).map(|cost| cost.relative_to(whole));
-        field < curves
+    fn pays_as_msdf(&self, candidate: &Candidate, whole: Cost) -> bool {
+        let [msdf, curves] = self.costs(candidate).map(|cost| cost.relative_to(whole));
+        msdf < curves
     }
 
     fn judge_at(&self, candidate: &Candidate) -> Trial {
@@ -259,19 +257,19 @@ impl Subject {
     }
 }
 
-fn verdict(trial: Option<Trial>, field: bool) -> Verdict {
+fn verdict(trial: Option<Trial>, msdf: bool) -> Verdict {
     let Some(trial) = trial else {
         return Verdict::forced(Coverage::Msdf);
     };
     Verdict {
-        coverage: if field {
+        coverage: if msdf {
             Coverage::Msdf
         } else {
             Coverage::Curves
         },
         finding: match trial.finding {
             // The MSDF would have been good enough, so it was the cost.
-            Finding::None if !field => Finding::Cost,
+            Finding::None if !msdf => Finding::Cost,
             finding => finding,
         },
         size_texels: trial.size_texels,
@@ -282,9 +280,9 @@ fn verdict(trial: Option<Trial>, field: bool) -> Verdict {
 }
 
 /// The measured error as reports keep it.
-fn error_record(p99_px: f64, wrong_share: f64) -> FieldError {
+fn error_record(p99_px: f64, wrong_share: f64) -> MsdfError {
     let short = |x: f64| f32::from_bits(to_f32(x).to_bits() & SHORT_FLOAT);
-    FieldError {
+    MsdfError {
         wrong_share: short(wrong_share),
         p99_px: short(p99_px),
     }

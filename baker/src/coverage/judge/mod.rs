@@ -36,7 +36,7 @@ pub(crate) fn judge(drawing: &Drawing, config: &BakeConfig) -> Judgement {
         Mode::Msdf | Mode::Raster => return all(Verdict::forced(Coverage::Msdf)),
         Mode::Auto => {}
     }
-    // Distance outlines and forced merges are features of distance fields alone.
+    // Distance outlines and forced merges are features of MSDFs alone.
     if config.outline_texels.is_some() || config.merge {
         return all(Verdict::forced(Coverage::Msdf));
     }

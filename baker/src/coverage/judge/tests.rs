@@ -329,7 +329,7 @@ fn auto_takes_fields_where_they_pay_and_they_keep_the_bound() {
         let file = bake(gears(), &config);
         let reports = file.provenance.unwrap().shapes;
         for report in &reports {
-            let measured = report.field_error.unwrap();
+            let measured = report.msdf_error.unwrap();
             assert!(f64::from(measured.p99_px) <= error && measured.wrong_share <= 1e-3);
             assert_eq!(report.finding, Finding::None);
             assert_eq!(

@@ -1,8 +1,8 @@
 //! Preparing outlines for MSDFs: overlaps are removed.
 //!
-//! A distance field needs contours that neither cross nor overlap and whose insides all lie on the
-//! same side. Then the distance to the nearest edge has the right sign, and every fill rule gives
-//! the same answer. Curves need none of this: they test windings.
+//! An MSDF needs contours that neither cross nor overlap and whose insides all lie on the same
+//! side. Then the distance to the nearest edge has the right sign, and every fill rule gives the
+//! same answer. Curves need none of this: they test windings.
 //!
 //! Three attempts, in this order: linesweeper, which keeps curves; `i_overlay`, which is robust but
 //! flattens; the outline as drawn, with its own fill rule. Each result is compared with the winding

@@ -90,7 +90,7 @@ const CLASSES: [(&str, &str, FillRule); 15] = [
 fn shape_of(outline: BezPath, rule: FillRule) -> Shape {
     match shape(outline, rule, [0.0, 0.0, 0.0, 1.0]) {
         Item::Shape(shape) => shape,
-        Item::Patch(_) | Item::Clip(_) => unreachable!("made as a shape"),
+        Item::Image(_) | Item::Clip(_) => unreachable!("made as a shape"),
     }
 }
 

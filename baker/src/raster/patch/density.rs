@@ -35,7 +35,7 @@ pub(crate) struct PatchSettings {
     pub(crate) canvas_size: [f64; 2],
     /// Texels of mip 0's longer side.
     pub(crate) mip0_size: u32,
-    /// Largest magnification.
+    /// Largest zoom.
     pub(crate) max_zoom: f64,
 }
 

@@ -10,14 +10,14 @@ use vtex_format::EMBEDDED_SOURCE;
 
 use super::resvg::paint_node;
 use crate::{
-    drawing::Patch,
+    drawing::ImageItem,
     number::to_f32,
     raster::{
         detail,
         mips::{self, LinearImage},
         texel,
     },
-    svg::{Step, Subtree},
+    svg::{PlanItem, Subtree},
 };
 
 /// Texels of all embedded images of a file together: 32 MiB with their mips. Images beyond it
@@ -104,7 +104,7 @@ impl Embedded {
     }
 
     /// The image at its place on the canvas; `None` when resvg could not paint it.
-    pub(super) fn patch(self, subtree: &Subtree<'_>, canvas_size: [f64; 2]) -> Option<Patch> {
+    pub(super) fn patch(self, subtree: &Subtree<'_>, canvas_size: [f64; 2]) -> Option<ImageItem> {
         let size = self.stored_size();
         let mut pixmap = Pixmap::new(size[0], size[1])?;
         let texel_from_image = Affine::scale(self.enlarged.into());
@@ -131,7 +131,7 @@ impl Embedded {
             rect.x1 / across,
             rect.y1 / down,
         ];
-        Some(Patch {
+        Some(ImageItem {
             rect,
             image: mips::chain(level0, rect_uv.map(to_f32)),
             feature: EMBEDDED_SOURCE.to_owned(),
@@ -140,13 +140,13 @@ impl Embedded {
     }
 }
 
-/// For each step the embedded image, if it is one that keeps its texels.
-pub(super) fn choose(steps: &[Step<'_>]) -> Vec<Option<Embedded>> {
-    let image = |step: &Step<'_>| match step {
-        Step::Raster(subtree) => Embedded::of(subtree),
-        Step::Shape(_) | Step::Clip(_) => None,
+/// For each item the embedded image, if it is one that keeps its texels.
+pub(super) fn choose(items: &[PlanItem<'_>]) -> Vec<Option<Embedded>> {
+    let image = |item: &PlanItem<'_>| match item {
+        PlanItem::Raster(subtree) => Embedded::of(subtree),
+        PlanItem::Shape(_) | PlanItem::Clip(_) => None,
     };
-    let mut embedded: Vec<Option<Embedded>> = steps.iter().map(image).collect();
+    let mut embedded: Vec<Option<Embedded>> = items.iter().map(image).collect();
     share_out(embedded.iter_mut());
     embedded
 }

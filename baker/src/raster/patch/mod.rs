@@ -15,9 +15,9 @@ use tiny_skia::Pixmap;
 use vtex_format::{Warning, WarningCode};
 
 use crate::{
-    drawing::{Item, Patch, Shape, tree::Tree},
+    drawing::{ImageItem, Item, Shape, tree::Tree},
     raster::mips::{self, LinearImage},
-    svg::{Plan, Step, Subtree},
+    svg::{Plan, PlanItem, Subtree},
     warning::{self, Warnings},
 };
 use density::{MAX_PATCH_TEXELS, WANTED_DENSITY};
@@ -29,29 +29,29 @@ pub(crate) use density::PatchSettings;
 /// Feature of a patch that stands for a shape too complex for curve records.
 pub(crate) const SHAPE_FEATURE: &str = "path";
 
-/// Turns the steps of a plan into the items of a drawing, in painter's order: subtrees become
+/// Turns the items of a plan into those of a drawing, in painter's order: subtrees become
 /// images.
 pub(crate) fn resolve(
     plan: Plan<'_>,
     settings: PatchSettings,
     warnings: &Warnings,
 ) -> (Vec<Item>, Tree) {
-    let embedded = embedded::choose(&plan.steps);
+    let embedded = embedded::choose(&plan.items);
     let patched = plan
-        .steps
+        .items
         .iter()
         .zip(&embedded)
         .filter_map(|pair| match pair {
-            (Step::Raster(subtree), None) => Some(subtree),
+            (PlanItem::Raster(subtree), None) => Some(subtree),
             _ => None,
         });
     // One density for all patches, so that neighbours look equally sharp.
     let density = settings.common_density(patched);
     let painted: Vec<Outcome> = plan
-        .steps
+        .items
         .into_par_iter()
         .zip(embedded)
-        .map(|(step, image)| Outcome::of(step, image, settings, density))
+        .map(|(item, image)| Outcome::of(item, image, settings, density))
         .collect();
     // Warnings are collected here and not while painting: their order must not depend on threads.
     let mut items = Vec::with_capacity(painted.len());
@@ -72,12 +72,12 @@ pub(crate) fn resolve(
     (items, plan.tree.renumbered(&place))
 }
 
-/// The result of one step.
+/// The result of one item of a plan.
 enum Outcome {
     /// An item that needs no warning: geometry or an embedded image.
     Item(Item),
     /// A patch and its density.
-    Patch(Patch, f64),
+    Patch(ImageItem, f64),
     /// Nothing: all of it is transparent.
     Nothing,
     /// resvg failed on this feature of this element.
@@ -85,15 +85,20 @@ enum Outcome {
 }
 
 impl Outcome {
-    fn of(step: Step<'_>, image: Option<Embedded>, settings: PatchSettings, density: f64) -> Self {
-        let subtree = match step {
-            Step::Shape(shape) => return Self::Item(Item::Shape(shape)),
-            Step::Clip(clip) => return Self::Item(Item::Clip(clip)),
-            Step::Raster(subtree) => subtree,
+    fn of(
+        item: PlanItem<'_>,
+        image: Option<Embedded>,
+        settings: PatchSettings,
+        density: f64,
+    ) -> Self {
+        let subtree = match item {
+            PlanItem::Shape(shape) => return Self::Item(Item::Shape(shape)),
+            PlanItem::Clip(clip) => return Self::Item(Item::Clip(clip)),
+            PlanItem::Raster(subtree) => subtree,
         };
         let image = image.and_then(|image| image.patch(&subtree, settings.canvas_size));
         match image {
-            Some(patch) => Self::Item(Item::Patch(patch)),
+            Some(patch) => Self::Item(Item::Image(patch)),
             None => Self::painted(&subtree, settings, density),
         }
     }
@@ -121,7 +126,7 @@ impl Outcome {
             Self::Item(item) => Some(item),
             Self::Patch(patch, _) => {
                 warnings.add(patch_warning(&patch, canvas_size));
-                Some(Item::Patch(patch))
+                Some(Item::Image(patch))
             }
             Self::Nothing => None,
             Self::Failed(feature, element) => {
@@ -144,7 +149,7 @@ fn paint_subtree(subtree: &Subtree<'_>, window: &Window) -> Option<Pixmap> {
 
 /// A shape as a patch, within its `share` of the texels of all patches; `None` when nothing of it
 /// shows.
-pub(crate) fn of_shape(shape: &Shape, settings: PatchSettings, share: f64) -> Option<Patch> {
+pub(crate) fn of_shape(shape: &Shape, settings: PatchSettings, share: f64) -> Option<ImageItem> {
     let bounds = shape
         .outline
         .control_box()
@@ -164,10 +169,10 @@ pub(crate) fn of_shape(shape: &Shape, settings: PatchSettings, share: f64) -> Op
 pub(crate) fn whole_canvas(
     settings: PatchSettings,
     paint: impl FnOnce([u32; 2]) -> LinearImage,
-) -> (Patch, Option<Warning>) {
+) -> (ImageItem, Option<Warning>) {
     let density = settings.density_of_canvas();
     let picture = paint(settings.lattice(density));
-    let patch = Patch {
+    let patch = ImageItem {
         rect: settings.canvas_rect(),
         image: mips::chain(picture, [0.0, 0.0, 1.0, 1.0]),
         feature: "raster".to_owned(),
@@ -177,7 +182,7 @@ pub(crate) fn whole_canvas(
     (patch, coarse.then(coarse_warning))
 }
 
-fn patch_warning(patch: &Patch, canvas_size: [f64; 2]) -> Warning {
+fn patch_warning(patch: &ImageItem, canvas_size: [f64; 2]) -> Warning {
     let (feature, [width, height]) = (&patch.feature, patch.image.size);
     Warning {
         code: WarningCode::RasterPatch,

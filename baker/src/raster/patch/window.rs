@@ -5,7 +5,7 @@ use tiny_skia::Pixmap;
 
 use super::{density::PatchSettings, skia::View};
 use crate::{
-    drawing::Patch,
+    drawing::ImageItem,
     number::to_f32,
     raster::{
         detail,
@@ -79,7 +79,7 @@ impl Window {
 
     /// The painted window as a patch that is no larger and no finer than it has to be; `None` when
     /// nothing shows.
-    pub(super) fn patch(&self, mut pixmap: Pixmap, source: Source<'_>) -> Option<Patch> {
+    pub(super) fn patch(&self, mut pixmap: Pixmap, source: Source<'_>) -> Option<ImageItem> {
         self.clear_border(&mut pixmap);
         let shown = self.shown_part(&pixmap)?;
         // Soft content such as a blurred shadow gets fewer texels.
@@ -88,7 +88,7 @@ impl Window {
         let rect_uv = [0, 1, 2, 3].map(uv);
         let [left, top, right, bottom] = rect_uv;
         let [width, height] = self.canvas_size;
-        Some(Patch {
+        Some(ImageItem {
             rect: Rect::new(left * width, top * height, right * width, bottom * height),
             image: mips::chain(level0, rect_uv.map(to_f32)),
             feature: source.feature.to_owned(),

@@ -11,7 +11,7 @@ use crate::{
     },
     svg::{
         path::{affine, bez_path, close_subpaths},
-        plan::Step,
+        plan::PlanItem,
     },
 };
 
@@ -112,7 +112,7 @@ impl Walker<'_, '_> {
             return None;
         }
         self.element_count += outline.elements().len();
-        let item = self.add(Step::Clip(ClipOutline { outline, rule }));
+        let item = self.add(PlanItem::Clip(ClipOutline { outline, rule }));
         Some(ClipPart {
             item,
             clips: Vec::new(),

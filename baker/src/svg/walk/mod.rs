@@ -48,7 +48,7 @@ pub(crate) fn plan<'a>(
             canvas_longer_side: canvas_size[0].max(canvas_size[1]),
             longer_side_px: options.longer_side_px,
         },
-        steps: Vec::new(),
+        items: Vec::new(),
         nodes: Vec::new(),
         element_count: 0,
     };
@@ -67,7 +67,7 @@ pub(crate) fn plan<'a>(
     }
     Ok(Plan {
         canvas_size,
-        steps: walker.steps,
+        items: walker.items,
         tree: Tree {
             roots: walker.nodes,
         },

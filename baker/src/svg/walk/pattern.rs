@@ -16,7 +16,7 @@ use crate::{
     number::count,
     svg::{
         path::{affine, transformed_bounds},
-        plan::Step,
+        plan::PlanItem,
     },
 };
 
@@ -72,11 +72,11 @@ impl Tiles {
 
     /// The transform of each tile's content to the canvas.
     fn places(self) -> impl Iterator<Item = Affine> {
-        let steps = |[first, last]: [f64; 2]| {
+        let numbers = |[first, last]: [f64; 2]| {
             std::iter::successors(Some(first), |at| Some(at + 1.0)).take_while(move |&at| at < last)
         };
-        steps(self.rows).flat_map(move |row| {
-            steps(self.columns).map(move |column| {
+        numbers(self.rows).flat_map(move |row| {
+            numbers(self.columns).map(move |column| {
                 let x = self.rect.x0 + column * self.rect.width();
                 let y = self.rect.y0 + row * self.rect.height();
                 self.canvas_from_pattern * Affine::translate((x, y))
@@ -198,7 +198,7 @@ impl<'a> Walker<'a, '_> {
         let Some(place_of_one) = tiles.places().next() else {
             return true;
         };
-        let (first, elements) = (self.steps.len(), self.element_count);
+        let (first, elements) = (self.items.len(), self.element_count);
         // The first tile is walked and copied. Nothing of it may be left out, even if it does not
         // show in this tile.
         let everywhere = Rect::new(-1e9, -1e9, 1e9, 1e9);
@@ -211,33 +211,35 @@ impl<'a> Walker<'a, '_> {
             walker.children(pattern.root(), place);
         });
         self.window = window;
-        let steps = self.steps.split_off(first);
+        let items = self.items.split_off(first);
         self.element_count = elements;
         // Groups would have to be copied with their items.
         let plain = nodes.iter().all(|node| matches!(node, tree::Node::Item(_)))
-            && steps.iter().all(is_plain);
+            && items.iter().all(is_plain);
         if !plain {
             return false;
         }
         // From the place of the tile that was walked to the tile's own space.
         let one_from_canvas = place_of_one.inverse();
-        for step in steps {
-            let Step::Shape(shape) = step else { continue };
+        for item in items {
+            let PlanItem::Shape(shape) = item else {
+                continue;
+            };
             let mut outline = BezPath::new();
             for canvas_from_tile in tiles.places() {
                 outline.extend(canvas_from_tile * one_from_canvas * &shape.outline);
             }
             self.element_count += outline.elements().len();
             if self.shows(outline.control_box()) {
-                self.show(Step::Shape(Shape { outline, ..shape }));
+                self.show(PlanItem::Shape(Shape { outline, ..shape }));
             }
         }
         true
     }
 }
 
-fn is_plain(step: &Step<'_>) -> bool {
-    matches!(step, Step::Shape(shape) if matches!(shape.paint, Paint::Solid(_)))
+fn is_plain(item: &PlanItem<'_>) -> bool {
+    matches!(item, PlanItem::Shape(shape) if matches!(shape.paint, Paint::Solid(_)))
 }
 
 /// About how many path elements a group becomes, with patterns inside it expanded. Infinite if they

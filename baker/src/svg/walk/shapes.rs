@@ -14,7 +14,7 @@ use crate::{
     geometry::stroke,
     svg::{
         path::{bez_path, close_subpaths},
-        plan::Step,
+        plan::PlanItem,
     },
 };
 
@@ -143,7 +143,7 @@ impl<'a> Walker<'a, '_> {
         }
         self.element_count += outline.elements().len();
         let element = place.element.to_owned();
-        self.show(Step::Shape(Shape {
+        self.show(PlanItem::Shape(Shape {
             outline,
             fill_rule,
             paint,

@@ -10,7 +10,7 @@ use crate::{
     geometry::stroke::StrokeQuality,
     svg::{
         path::{affine, transformed_bounds},
-        plan::{Step, Subtree},
+        plan::{PlanItem, Subtree},
     },
     warning::Warnings,
 };
@@ -50,7 +50,7 @@ pub(super) struct Walker<'a, 'w> {
     pub(super) window: Rect,
     pub(super) quality: StrokeQuality,
     /// The items so far.
-    pub(super) steps: Vec<Step<'a>>,
+    pub(super) items: Vec<PlanItem<'a>>,
     /// The nodes so far of the group that is being walked.
     pub(super) nodes: Vec<tree::Node>,
     /// Path elements of all outlines so far. Past the limit nothing is added.
@@ -105,20 +105,20 @@ impl<'a> Walker<'a, '_> {
 
     /// Index of the next item.
     pub(super) fn next_item(&self) -> u32 {
-        u32::try_from(self.steps.len()).unwrap_or(u32::MAX)
+        u32::try_from(self.items.len()).unwrap_or(u32::MAX)
     }
 
     /// Adds an item that no node refers to yet, and returns its index.
-    pub(super) fn add(&mut self, step: Step<'a>) -> u32 {
-        let item = self.next_item();
-        self.steps.push(step);
-        item
+    pub(super) fn add(&mut self, item: PlanItem<'a>) -> u32 {
+        let index = self.next_item();
+        self.items.push(item);
+        index
     }
 
     /// Adds an item that is painted at this place of the order.
-    pub(super) fn show(&mut self, step: Step<'a>) {
-        let item = self.add(step);
-        self.nodes.push(tree::Node::Item(item));
+    pub(super) fn show(&mut self, item: PlanItem<'a>) {
+        let index = self.add(item);
+        self.nodes.push(tree::Node::Item(index));
     }
 
     /// Adds a node for resvg to paint as a whole; `feature` says why.
@@ -127,7 +127,7 @@ impl<'a> Walker<'a, '_> {
         if !bounds.is_finite() || !self.shows(bounds) {
             return;
         }
-        self.show(Step::Raster(Subtree {
+        self.show(PlanItem::Raster(Subtree {
             node,
             canvas_from_parent: place.canvas_from_user,
             bounds,

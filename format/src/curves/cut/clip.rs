@@ -68,6 +68,7 @@ impl Segment {
     pub fn halves_at(&self, height: f64) -> [Self; 2] {
         let control_y = self.control.map(|c| c.y);
         let t = parameter(self.start.y, control_y, self.end.y, height);
+        // Rounded once, for both parts; the clamp keeps both monotone.
         let x = self.blossom(t, t).x.round();
         let cut = Point::new(x.max(self.x_min()).min(self.x_max()), height);
         let part = |start: Point, end: Point, from: f64, to: f64| Self {
@@ -95,7 +96,7 @@ impl Segment {
     }
 }
 
-/// What a segment is to a box.
+/// How a segment lies to a box.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Clipped {
     /// The part in the box, relative to its corner.
@@ -117,6 +118,8 @@ pub(super) fn clip(segment: &Segment, cell: &CellBox) -> Clipped {
     let low = cell.origin;
     let high = Point::new(low.x + cell.size, low.y + cell.size);
     // What follows says the same of segments wholly beside the box, at the price of their cuts.
+    // Half open: a segment on the right edge lies outside, one on the left edge passes left of the
+    // box and is a step.
     if segment.x_min() >= high.x {
         return Clipped::default();
     }
@@ -206,6 +209,7 @@ fn cut_at_x(segment: &Segment, x: f64, first: Cut, last: Cut) -> Cut {
         segment.end.x,
         x,
     );
+    // Rounding of t must not carry this cut past the others: heights would run backwards.
     let t = t.max(first.t).min(last.t);
     let y = segment.blossom(t, t).y.round();
     let y = y.max(first.point.y).min(last.point.y);
@@ -228,6 +232,7 @@ pub fn parameter(p0: f64, control: Option<f64>, p2: f64, v: f64) -> f64 {
             (v - p0) / (b + slope.copysign(p2 - p0))
         }
     };
+    // 0 / 0 where the segment does not move along this axis.
     if t.is_nan() { 0.0 } else { t.clamp(0.0, 1.0) }
 }
 
@@ -235,6 +240,7 @@ pub fn parameter(p0: f64, control: Option<f64>, p2: f64, v: f64) -> f64 {
 fn between(segment: &Segment, first: Cut, last: Cut, cell: &CellBox) -> Option<Segment> {
     let local = |p: Point| p.minus(cell.origin);
     let (start, end) = (local(first.point), local(last.point));
+    // Rounding may leave nothing of a short part.
     if start == end {
         return None;
     }

@@ -48,12 +48,13 @@ pub struct CellCurves {
     /// Heights on the box's left edge to the change of the winding there, none of them zero: where
     /// a contour goes on left of the box its segments' ends cancel.
     pub steps: BTreeMap<u16, i32>,
-    /// What of the outlines lies in the box.
+    /// The parts of the outlines that lie in the box.
     pub segments: Vec<Segment>,
 }
 
 impl CellCurves {
-    /// Adds what a segment is to the box. More than one of its ends lies in the rows of the box.
+    /// Adds a segment: the part in the box as it is, the part left of it as steps. More of the
+    /// segment than an end must lie in the rows of the box.
     pub fn add(&mut self, segment: &Segment, cell: &CellBox) {
         let clipped = clip(segment, cell);
         if let Some([top, bottom]) = clipped.left {
@@ -63,8 +64,9 @@ impl CellCurves {
         self.segments.extend(clipped.inside);
     }
 
-    /// Adds what other shapes are to the same box; windings add up.
+    /// Adds other shapes in the same box; windings add up.
     pub fn join(&mut self, other: &Self) {
+        // A sum that saturates fits no record, which `record` says.
         self.base = self.base.saturating_add(other.base);
         for (&height, &change) in &other.steps {
             self.step(height, change);
@@ -88,6 +90,8 @@ impl CellCurves {
     }
 
     fn change(&mut self, height: f64, change: i32, size: f64) {
+        // A change at or above the top holds for the whole box, one at or below the bottom for none
+        // of it. A step counts from its own height on.
         if height <= 0.0 {
             self.base = self.base.saturating_add(change);
         } else if height < size {

@@ -36,6 +36,7 @@ pub(super) fn words(curves: &CellCurves, even_odd: bool) -> Option<Vec<u32>> {
 fn chained<'a>(segments: impl Iterator<Item = &'a Segment>) -> Vec<&'a Segment> {
     let key = |p: Point| [to_u16(p.y), to_u16(p.x)];
     let mut sorted: Vec<(&Segment, bool)> = segments.map(|segment| (segment, false)).collect();
+    // Before a stable sort, so that of equal starts the last comes first.
     sorted.reverse();
     sorted.sort_by_key(|(segment, _)| key(segment.start));
     let mut chain: Vec<&Segment> = Vec::with_capacity(sorted.len());
@@ -49,6 +50,7 @@ fn chained<'a>(segments: impl Iterator<Item = &'a Segment>) -> Vec<&'a Segment> 
             let free = here.enumerate().find(|(_, (_, taken))| !taken);
             free.map(|(place, _)| first + place)
         });
+        // Never goes back: what lies before it is taken.
         while follows.is_none() && sorted[topmost].1 {
             topmost += 1;
         }

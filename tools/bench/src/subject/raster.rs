@@ -1,8 +1,8 @@
 //! The baseline: a raster texture with mips, looked up on the CPU and by the sampler of the GPU.
 
 use vtex_format::Image;
-use vtex_shaders::cpu::color::decode_channel;
 use vtex_shaders::layout::BatchQuery;
+use vtex_shaders::srgb;
 
 use crate::timing::{Device, Kernel};
 
@@ -119,7 +119,7 @@ pub(crate) fn halves_kernel(device: &Device, image: &Image) -> Kernel {
 
 /// As `wgsl/halves.wgsl` reads them.
 fn halves_words(image: &Image) -> Vec<u32> {
-    let decode = decode_table();
+    let decode = srgb::decode_table();
     let levels = Image::level_count(image.size);
     let mut words = vec![0; 20];
     words[..3].copy_from_slice(&[image.size[0], image.size[1], levels]);
@@ -147,7 +147,7 @@ impl<'a> CpuRaster<'a> {
     pub(crate) fn new(image: &'a Image) -> Self {
         Self {
             image,
-            decode: decode_table(),
+            decode: srgb::decode_table(),
         }
     }
 
@@ -207,11 +207,6 @@ fn floor_index(value: f32) -> usize {
 fn linear(decode: &[f32; 256], [r, g, b, a]: [u8; 4]) -> [f32; 4] {
     let color = [r, g, b].map(|byte| decode[usize::from(byte)]);
     [color[0], color[1], color[2], f32::from(a) / 255.0]
-}
-
-/// Linear light of the 256 encoded bytes.
-pub(crate) fn decode_table() -> [f32; 256] {
-    std::array::from_fn(|byte| decode_channel(byte as f32 / 255.0))
 }
 
 #[cfg(test)]

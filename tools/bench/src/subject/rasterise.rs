@@ -6,9 +6,7 @@ use resvg::tiny_skia::{Pixmap, PremultipliedColorU8, Transform};
 use resvg::usvg;
 use vtex_baker::Resources;
 use vtex_format::Image;
-use vtex_shaders::cpu::color::encode_channel;
-
-use super::raster::decode_table;
+use vtex_shaders::srgb;
 
 /// Steps of the table that encodes linear light; a step is at most a twentieth of a byte's.
 const ENCODE_STEPS: usize = 1 << 16;
@@ -89,10 +87,10 @@ impl Transfer {
     fn new() -> Self {
         let encode = |step: usize| {
             let linear = step as f32 / (ENCODE_STEPS - 1) as f32;
-            byte(encode_channel(linear))
+            byte(srgb::encode(linear))
         };
         Self {
-            decode: decode_table(),
+            decode: srgb::decode_table(),
             encode: (0..ENCODE_STEPS).map(encode).collect(),
         }
     }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 use vtex_shaders::cpu::{LookupCost, Sampler};
 use vtex_shaders::layout::BatchQuery;
-use vtex_shaders::{BindingSlot, FilterMode, PackOptions, fragment, spec_key_with};
+use vtex_shaders::{BindingSlot, FilterMode, PackOptions, fragment, spec_key};
 
 use crate::report::{Cell, Table};
 use crate::subject::{CpuRaster, FILTERS, RASTER_SIZE, Subject, hardware_kernel};
@@ -124,7 +124,7 @@ fn vtex_kernel(device: &Device, subject: &Subject, filter: FilterMode) -> Kernel
         ..PackOptions::default()
     };
     let evaluator = fragment(
-        &spec_key_with(&subject.file, &options),
+        &spec_key(&subject.file, &options),
         BindingSlot {
             group: 0,
             binding: 0,

@@ -98,7 +98,7 @@ fn raster_file(like: &VtexFile, image: Image) -> VtexFile {
         layers: Vec::new(),
         tiles: Vec::new(),
         curves: Vec::new(),
-        sources: None,
+        outlines: None,
         provenance: None,
         ..like.clone()
     };

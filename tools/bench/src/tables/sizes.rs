@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, ensure};
 use vtex_baker::{BakeConfig, Resources};
 use vtex_format::{Image, Limits, SectionInfo, Tag, directory};
 use vtex_shaders::{PackOptions, pack};
@@ -24,7 +24,14 @@ const GROUPS: [(&str, &[Tag]); 6] = [
     ("shader", &[Tag::SPEC, Tag::SHDR]),
     (
         "records",
-        &[Tag::META, Tag::PROV, Tag::PANT, Tag::SHAP, Tag::LAYR],
+        &[
+            Tag::META,
+            Tag::PROV,
+            Tag::PANT,
+            Tag::GRAD,
+            Tag::SHAP,
+            Tag::LAYR,
+        ],
     ),
 ];
 
@@ -87,6 +94,16 @@ impl Sizes {
             Ok((file, bytes))
         };
         let (file, bytes) = bake(&BakeConfig::default())?;
+        let sections = directory(&bytes, &Limits::default())?.sections;
+        for section in &sections {
+            let tag = section.tag;
+            let grouped = GROUPS.iter().any(|(_, tags)| tags.contains(&tag));
+            // Else its bytes would be missing from every column.
+            ensure!(
+                grouped,
+                "section {tag} is in no group of the table of sizes"
+            );
+        }
         let (_, high_zoom) = bake(&BakeConfig {
             max_zoom: HIGH_ZOOM,
             ..BakeConfig::default()
@@ -101,7 +118,7 @@ impl Sizes {
             words: 4 * pack(&file, &PackOptions::default()).len() as u64,
             raster: levels.map(|level| level_bytes(size, level)).sum(),
             png: pixmap.encode_png().context("cannot encode a PNG")?.len() as u64,
-            sections: directory(&bytes, &Limits::default())?.sections,
+            sections,
             name,
         })
     }

@@ -21,7 +21,7 @@ pub struct Terms {
     pub spp: u32,
     /// Number of windows to compare at each zoom above 1.
     pub windows: u32,
-    /// Whether the texture holds coverage only.
+    /// Whether lookups return alpha only; then alpha is compared.
     pub mask: bool,
 }
 

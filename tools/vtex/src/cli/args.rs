@@ -14,7 +14,7 @@ use super::values::{Color, Matrix, Size, color, matrix, size, view};
 
 /// Bake SVG drawings into vector textures (.vtex), and inspect, check, compare and render them.
 #[derive(Debug, Parser)]
-#[command(name = "vtex", version, about, max_term_width = 100, after_help = EXIT_CODES)]
+#[command(name = "vtex", version, max_term_width = 100, after_help = EXIT_CODES)]
 pub(crate) struct Cli {
     /// What to do.
     #[command(subcommand)]
@@ -30,6 +30,8 @@ const EXIT_CODES: &str = "Exit codes: 0 success, 1 wrong command line, 2 a file 
 
 /// Settings of all commands.
 #[derive(Clone, Copy, Debug, Args)]
+// Without a heading of their own clap mixes them into the options of each command.
+#[command(next_help_heading = "Options of all commands")]
 pub(crate) struct Global {
     /// Format of the results on standard output
     #[arg(
@@ -82,11 +84,12 @@ const PROCESSES: &str = "Each file is baked in a separate process, at most --thr
     time. A process that needs more time than --timeout or more memory than --max-memory is stopped: \
     its file fails with exit code 8, and the other files are still baked.";
 
-const METRICS: &str = "The truth is the SVG, drawn by resvg without anti-aliasing at 257 samples \
-    per pixel (256 for drawings with filters, patterns or images) that are averaged in linear light. \
-    Both pictures are composited over white in linear light and then sRGB-encoded. PSNR is taken over \
-    R, G and B. A pixel is wrong if one of its channels differs by more than 8 of 255. At a zoom above \
-    1, --windows windows at edges of the drawing are compared, and the worst one counts.";
+const METRICS: &str = "The picture of the .vtex file is compared with the truth: the SVG as resvg \
+    draws it without anti-aliasing, at 257 samples per pixel (256 for drawings with filters, patterns \
+    or images), averaged in linear light. Both pictures are composited over white in linear light and \
+    then sRGB-encoded. PSNR is taken over R, G and B. A pixel is wrong if one of its channels differs \
+    by more than 8 of 255. At a zoom above 1, only windows at edges of the drawing are compared (as \
+    many as --windows says), and the worst one counts.";
 
 /// Fonts for text.
 #[derive(Clone, Debug, Args)]
@@ -114,10 +117,11 @@ pub(crate) struct Bake {
     /// Write nothing: compare with the existing outputs, and exit with 7 if one is missing or differs
     #[arg(long)]
     pub(crate) check: bool,
-    /// Write the dependencies of each output as Makefile rules
+    /// Write to FILE, as Makefile rules, on which files each output depends
     #[arg(long, value_name = "FILE")]
     pub(crate) depfile: Option<PathBuf>,
-    /// Keep bakes in DIR, and reuse them while SVG, options, fonts and version are the same
+    /// Keep a copy of each bake in DIR, and reuse it while SVG, options, fonts and the version of
+    /// vtex are the same
     #[arg(long, value_name = "DIR")]
     pub(crate) cache_dir: Option<PathBuf>,
     /// Limits for each file.
@@ -161,20 +165,20 @@ pub(crate) struct BakeOptions {
     /// Texels along the longer side of mip 0
     #[arg(long, value_name = "N", default_value_t = BakeConfig::default().mip0_size)]
     pub(crate) size: u32,
-    /// MSDF texels along the canvas' longer side
+    /// MSDF texels along the canvas' longer side; with --mode auto the largest number that is tried
     #[arg(long, value_name = "N", default_value_t = BakeConfig::default().msdf_size)]
     pub(crate) msdf_size: u32,
-    /// Put all shapes into one layer; correct only if no shapes overlap
+    /// Put all shapes into one layer, with --mode auto as MSDFs; correct only if no shapes overlap
     #[arg(long)]
     pub(crate) merge: bool,
-    /// Store coverage without colours; lookups return it in all four channels
+    /// Make lookups return alpha in all four channels; the file still stores the colours
     #[arg(long)]
     pub(crate) mask: bool,
     /// Half width of the constant edge smoothing of `--filter paper`, as a share of the MSDF's
-    /// distance range, in (0, 0.5]
+    /// distance range: more than 0, at most 0.5
     #[arg(long, value_name = "S", default_value_t = BakeConfig::default().smoothing)]
     pub(crate) smoothing: f32,
-    /// Draw an outline of WIDTH MSDF texels around every shape
+    /// Draw an outline of WIDTH MSDF texels around every shape, with --mode auto as MSDFs
     #[arg(long, value_name = "WIDTH", num_args = 0..=1, default_missing_value = "1")]
     pub(crate) outline: Option<f32>,
     /// Replace the colour of every fill by a CSS colour, such as #d03020, navy or rgb(1 2 3)
@@ -189,8 +193,9 @@ pub(crate) struct BakeOptions {
     /// Texture matrix of lookups: u' = a u + c v + e, v' = b u + d v + f
     #[arg(long, value_name = "a,b,c,d,e,f", value_parser = matrix, allow_hyphen_values = true)]
     pub(crate) transform: Option<Matrix>,
-    /// Also draw the image files in DIR and below that the SVG names; repeat for more folders.
-    /// Other image files are left out with a warning. Nothing is loaded from the network
+    /// Also draw image files that the SVG names, if they are in DIR or a folder inside it; repeat
+    /// for more folders. Other image files are left out with a warning. Nothing is loaded from the
+    /// network
     #[arg(long, value_name = "DIR")]
     pub(crate) allow_images: Vec<PathBuf>,
     /// Fonts for text.
@@ -201,7 +206,7 @@ pub(crate) struct BakeOptions {
 /// How shapes are stored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum BakeMode {
-    /// Whatever is best for each shape
+    /// For each shape what costs less: an MSDF whose error is at most --error, or curves
     #[default]
     Auto,
     /// Multi-channel signed distance fields (MSDF)
@@ -297,7 +302,7 @@ pub(crate) struct Preview {
     /// Size in pixels: `WxH`, or N for the longer side
     #[arg(long, default_value = "512", value_parser = size)]
     pub(crate) size: Size,
-    /// Part of the canvas to show, in uv: left, top, right, bottom
+    /// Part of the canvas to show: left, top, right, bottom; 0,0,1,1 is the whole canvas
     #[arg(long, value_name = "u0,v0,u1,v1", value_parser = view, allow_hyphen_values = true)]
     pub(crate) view: Option<View>,
     /// How it is looked up.
@@ -333,15 +338,15 @@ pub(crate) struct Compare {
     /// Number of windows to compare at each zoom above 1
     #[arg(long, value_name = "N", default_value_t = WINDOWS, value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub(crate) windows: u32,
-    /// Also print the noise of the truth in the worst window of each zoom: its PSNR against the
-    /// truth with half as many samples along each side of a pixel
+    /// Also print how exact the truth is, in the worst window of each zoom: its PSNR against the same
+    /// picture drawn with a quarter of the samples
     #[arg(long)]
     pub(crate) noise: bool,
-    /// Also write an HTML page that shows SVG, .vtex and a raster of 4096 texels side by side
+    /// Also write an HTML page into DIR that shows SVG, .vtex and a raster of 4096 texels side by side
     #[arg(long, value_name = "DIR")]
     pub(crate) html: Option<PathBuf>,
-    /// Also write pictures of the worst window: svg.png, vtex.png and difference.png, where
-    /// differences are amplified four times
+    /// Also write pictures of the worst window of all zooms into DIR: svg.png, vtex.png and
+    /// difference.png, where differences are amplified four times
     #[arg(long, value_name = "DIR")]
     pub(crate) pictures: Option<PathBuf>,
     /// Fonts for text.
@@ -362,7 +367,8 @@ pub(crate) struct Extract {
 /// `vtex render`.
 #[derive(Debug, Args)]
 pub(crate) struct Render {
-    /// .svg or .vtex files: one is shown on a plane, several on objects in a showroom
+    /// .svg or .vtex files: one is shown on a plane, several on objects in a showroom. SVG files are
+    /// baked first, with default options
     #[arg(required = true, value_name = "SCENE")]
     pub(crate) scene: Vec<PathBuf>,
     /// File to write: .png (sRGB, tone-mapped in the showroom) or .exr (linear)
@@ -374,7 +380,7 @@ pub(crate) struct Render {
     /// Samples per pixel
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub(crate) spp: u32,
-    /// Most bounces of a path
+    /// Largest number of bounces of a light path
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=64))]
     pub(crate) bounces: u32,
     /// Seed of the random numbers

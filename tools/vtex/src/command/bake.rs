@@ -219,7 +219,7 @@ impl<'a> Job<'a> {
         let files = summary.paths();
         let verdict = match (self.args.check, code) {
             (true, ExitCode::Ok) => "up to date: ",
-            (true, _) => "missing or different; bake it again: ",
+            (true, _) => "missing or different; bake it again. A new bake has ",
             _ => "",
         };
         let output = pair.output.display();
@@ -316,7 +316,9 @@ fn is_stdout(path: &Path) -> bool {
 fn pair_up(inputs: Vec<Input>, out: &Path) -> Outcome<Vec<Pair>> {
     let alone = matches!(inputs.as_slice(), [input] if input.named);
     if is_stdout(out) && !alone {
-        return Err(Failure::usage("-o - takes exactly one input"));
+        return Err(Failure::usage(
+            "-o - takes one input file, and no folder or glob",
+        ));
     }
     let into_folder = !is_stdout(out) && (!alone || out.is_dir() || ends_with_slash(out));
     let mut pairs: Vec<Pair> = Vec::with_capacity(inputs.len());

@@ -162,7 +162,10 @@ fn text(reports: &[ZoomReport], noise_db: Option<&[f64]>) -> String {
     }
     for (report, noise_db) in reports.iter().zip(noise_db.unwrap_or_default()) {
         let zoom = report.zoom;
-        let _ = writeln!(out, "{zoom:>7} {noise_db:>9.2} noise of the truth itself");
+        let _ = writeln!(
+            out,
+            "{zoom:>7} {noise_db:>9.2} the truth against itself, with a quarter of the samples"
+        );
     }
     out
 }

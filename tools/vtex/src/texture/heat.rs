@@ -22,7 +22,7 @@ const SINGLE: [u8; 4] = [70, 80, 90, 255];
 /// What a cell's list holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct CellLoad {
-    /// Entries; 0 for empty and single-colour cells.
+    /// Entries; 0 for empty and cells of a single paint.
     pub(crate) entries: u32,
     /// Lines and quadratics in the curve records of all entries.
     pub(crate) segments: u32,
@@ -81,7 +81,7 @@ pub(crate) struct HeatMap {
 pub(crate) fn heat_map(file: &VtexFile, counts: &[u32]) -> HeatMap {
     let bounds = bounds(counts.iter().copied().max().unwrap_or(0));
     let color = |(&word, &count): (&u32, &u32)| match CellWord::decode(word) {
-        Some(CellWord::Solid { .. }) => SINGLE,
+        Some(CellWord::Paint { .. }) => SINGLE,
         Some(CellWord::List { .. }) => opaque(SCALE[step_of(count, &bounds)]),
         _ => EMPTY,
     };

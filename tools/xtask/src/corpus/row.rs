@@ -82,7 +82,7 @@ impl Content {
             let kind = shape["coverage"].as_str().unwrap_or("unknown");
             *content.coverage.entry(kind.to_owned()).or_default() += 1;
         }
-        // Image 0 is the canvas where the shader key says so.
+        // Image 0 is the canvas where the spec key says so.
         let features = info["shader"]["features"].as_array();
         let has_mips = features.is_some_and(|all| all.iter().any(|feature| feature == "mips"));
         let others = content.patches + usize::from(has_mips);

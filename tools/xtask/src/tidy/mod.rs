@@ -1,10 +1,13 @@
 //! `cargo xtask tidy`: the rules that no compiler knows.
 
 mod graph;
+mod manifest;
 mod specification;
 mod text;
 
 use anyhow::{Context, Result};
+
+pub(crate) use manifest::published;
 
 use crate::rooms;
 use crate::workspace::Workspace;
@@ -15,6 +18,7 @@ pub(crate) fn run(ws: &Workspace) -> Result<bool> {
     let metadata = ws.metadata()?;
     let packages = graph::packages(&metadata)?;
     problems.extend(graph::check(&packages));
+    problems.extend(manifest::check(&metadata));
     for package in packages.iter().filter(|package| package.is_member) {
         let manifest = ws
             .read(&package.manifest)?

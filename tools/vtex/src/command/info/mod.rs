@@ -62,7 +62,7 @@ impl CellStats {
         let listed: u64 = lengths().map(u64::from).sum();
         Self {
             empty: count(|cell| cell == CellWord::Empty),
-            single: count(|cell| matches!(cell, CellWord::Solid { .. })),
+            single: count(|cell| matches!(cell, CellWord::Paint { .. })),
             lists,
             entries_mean: listed as f64 / lists.max(1) as f64,
             entries_max: lengths().max().unwrap_or(0),
@@ -111,7 +111,7 @@ fn json(file: &VtexFile, directory: &Directory) -> Value {
     let sections: Vec<_> = directory.sections.iter().map(|section| json!({
         "tag": section.tag.to_string(), "codec": format!("{:?}", section.codec).to_lowercase(),
         "raw_bytes": section.raw_bytes, "stored_bytes": section.stored_bytes,
-        "group": section.group, "mip": section.mip,
+        "group": section.image, "mip": section.mip,
     })).collect();
     let shapes: Vec<_> = file
         .shapes
@@ -170,7 +170,7 @@ fn members(file: &VtexFile, layer: u32) -> Vec<usize> {
 }
 
 fn spec_words(file: &VtexFile) -> String {
-    hex(bytemuck::bytes_of(&file.spec))
+    hex(bytemuck::bytes_of(&file.spec.encode()))
 }
 
 fn hex(bytes: &[u8]) -> String {

@@ -14,7 +14,7 @@ use super::hex;
 /// A shape's record and report as JSON.
 pub(super) fn shape_json(file: &VtexFile, index: usize, shape: &ShapeRecord) -> Value {
     let report = file.provenance.as_ref().and_then(|p| p.shapes.get(index));
-    let error = report.and_then(|r| r.field_error);
+    let error = report.and_then(|r| r.msdf_error);
     let place = match shape.coverage {
         COVERAGE_IMAGE => json!({"image": shape.layer_or_image}),
         _ => json!({"layer": shape.layer_or_image}),
@@ -80,7 +80,7 @@ fn report_text(report: &ShapeReport) -> String {
     if report.size_texels > 0 {
         parts.push(format!("{} texels", report.size_texels));
     }
-    if let Some(error) = report.field_error {
+    if let Some(error) = report.msdf_error {
         let (p99, wrong) = (error.p99_px, 100.0 * error.wrong_share);
         parts.push(format!("error p99 {p99:.3} px, {wrong:.2}% wrong"));
     }

@@ -1,9 +1,9 @@
 //! The one seam to bincode: fixed-width little-endian integers, every byte consumed, and only the
 //! encoding that we would write ourselves.
 //!
-//! bincode believes a string's length and allocates it unless a limit, which is a constant of the
-//! type, forbids; so the limit is the power of 16 above the input. It bounds neither zero-sized
-//! elements nor recursion: no type here has either.
+//! bincode trusts the length of a string and allocates that much, unless a limit forbids it. The
+//! limit is a constant of the type, so it is the next power of 16 above the length of the input. It
+//! bounds neither zero-sized elements nor recursion: no type here has either.
 
 use bincode::config::{Configuration, Fixint, LittleEndian};
 use serde::{Serialize, de::DeserializeOwned};
@@ -24,6 +24,7 @@ pub(crate) fn decode<T: Serialize + DeserializeOwned>(bytes: &[u8]) -> Result<T,
     if used != bytes.len() {
         return Err(format!("{} bytes left over", bytes.len() - used));
     }
+    // One value, one encoding: a file that is read and written again keeps its bytes.
     if encode(&value) != bytes {
         return Err("not the canonical encoding".to_owned());
     }

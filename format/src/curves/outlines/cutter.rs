@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{CurveSources, MAX_WORK, SourceError, SourceOutline, SourceRecord, SourceSegment};
+use super::{MAX_WORK, OutlineError, RecordParts, StoredOutline, StoredOutlines, StoredSegment};
 use crate::curves::cut::{CellBox, CellCurves, Point, Segment};
 use crate::records::curve::CurveLattice;
 
@@ -11,7 +11,7 @@ const CLIP_WORK: u64 = 16;
 
 /// Cuts records, keeping for each outline its segments in the row of cells that was last asked for.
 pub(super) struct Cutter<'a> {
-    sources: &'a CurveSources,
+    stored: &'a StoredOutlines,
     columns: u32,
     lattice: CurveLattice,
     rows: Vec<Option<(u32, Vec<Segment>)>>,
@@ -20,31 +20,32 @@ pub(super) struct Cutter<'a> {
 }
 
 impl<'a> Cutter<'a> {
-    pub(super) fn new(sources: &'a CurveSources, columns: u32, lattice: CurveLattice) -> Self {
+    pub(super) fn new(stored: &'a StoredOutlines, columns: u32, lattice: CurveLattice) -> Self {
         Self {
-            sources,
+            stored,
             columns: columns.max(1),
             lattice,
-            rows: vec![None; sources.outlines.len()],
+            rows: vec![None; stored.outlines.len()],
             work_left: MAX_WORK,
         }
     }
 
     /// The words of one record, whose indices have been checked.
-    pub(super) fn record(&mut self, record: &SourceRecord) -> Result<Vec<u32>, SourceError> {
+    pub(super) fn record(&mut self, record: &RecordParts) -> Result<Vec<u32>, OutlineError> {
         let (column, row) = (record.cell % self.columns, record.cell / self.columns);
-        let flatness = f64::from(self.sources.flatness_units);
+        let flatness = f64::from(self.stored.flatness_units);
         let cell = CellBox::of_cell([column, row], self.lattice, flatness);
         let mut curves = CellCurves::default();
         let mut even_odd = false;
         for &outline in &record.outlines {
             self.cut(outline as usize, row, &cell, &mut curves)?;
+            // After each outline, so that memory stays bounded by the largest of them.
             if curves.is_too_much() {
-                return Err(SourceError::Overflow);
+                return Err(OutlineError::Overflow);
             }
-            even_odd = self.sources.outlines[outline as usize].even_odd;
+            even_odd = self.stored.outlines[outline as usize].even_odd;
         }
-        curves.record(even_odd).ok_or(SourceError::Overflow)
+        curves.record(even_odd).ok_or(OutlineError::Overflow)
     }
 
     fn cut(
@@ -53,18 +54,21 @@ impl<'a> Cutter<'a> {
         row: u32,
         cell: &CellBox,
         curves: &mut CellCurves,
-    ) -> Result<(), SourceError> {
-        let outline = &self.sources.outlines[index];
+    ) -> Result<(), OutlineError> {
+        let outline = &self.stored.outlines[index];
         let known = &mut self.rows[index];
         let mut work = 0;
+        // Writers store records row by row, so one row for each outline is enough. Another order is
+        // read as well and counts as more work.
         if known.as_ref().is_none_or(|(known, _)| *known != row) {
             work += outline.segments.len() as u64;
             *known = Some((row, row_segments(outline, cell)));
         }
         let segments = known.as_ref().map_or(&[][..], |(_, segments)| segments);
         work += CLIP_WORK * segments.len() as u64;
-        self.work_left = self.work_left.checked_sub(work).ok_or(SourceError::Work)?;
+        self.work_left = self.work_left.checked_sub(work).ok_or(OutlineError::Work)?;
         let right = cell.origin.x + cell.size;
+        // In order of their smallest x: those from here on lie right of the box.
         for segment in segments.iter().take_while(|s| s.x_min() < right) {
             curves.add(segment, cell);
         }
@@ -73,16 +77,16 @@ impl<'a> Cutter<'a> {
 }
 
 /// What cutting takes when records come row by row, in the measure of [`MAX_WORK`].
-pub(super) fn work(sources: &CurveSources, columns: u32, lattice: CurveLattice) -> u64 {
+pub(super) fn work(stored: &StoredOutlines, columns: u32, lattice: CurveLattice) -> u64 {
     let mut cells: BTreeMap<(u32, u32), u64> = BTreeMap::new();
-    for record in &sources.records {
+    for record in &stored.records {
         let row = record.cell / columns.max(1);
         for &outline in &record.outlines {
             *cells.entry((outline, row)).or_default() += 1;
         }
     }
     let work = cells.into_iter().map(|((outline, row), cells)| {
-        let Some(outline) = sources.outlines.get(outline as usize) else {
+        let Some(outline) = stored.outlines.get(outline as usize) else {
             return 0;
         };
         let cell = CellBox::of_cell([0, row], lattice, 0.0);
@@ -94,9 +98,9 @@ pub(super) fn work(sources: &CurveSources, columns: u32, lattice: CurveLattice) 
 
 /// The segments of which more than an end lies in the box's rows.
 fn reaching<'a>(
-    outline: &'a SourceOutline,
+    outline: &'a StoredOutline,
     cell: &CellBox,
-) -> impl Iterator<Item = &'a SourceSegment> {
+) -> impl Iterator<Item = &'a StoredSegment> {
     let (top, bottom) = (cell.origin.y, cell.origin.y + cell.size);
     outline.segments.iter().filter(move |segment| {
         let [a, b] = [segment.from[1], segment.to[1]].map(f64::from);
@@ -105,15 +109,16 @@ fn reaching<'a>(
 }
 
 /// Those segments by their smallest x.
-fn row_segments(outline: &SourceOutline, cell: &CellBox) -> Vec<Segment> {
+fn row_segments(outline: &StoredOutline, cell: &CellBox) -> Vec<Segment> {
     let mut row: Vec<Segment> = reaching(outline, cell).map(downward).collect();
     row.sort_by(|a, b| a.x_min().total_cmp(&b.x_min()));
     row
 }
 
 /// From the upper to the lower end.
-fn downward(segment: &SourceSegment) -> Segment {
+fn downward(segment: &StoredSegment) -> Segment {
     let [from, to] = [segment.from, segment.to];
+    // By height, then from left to right: level segments have an upper end too.
     let down = (from[1], from[0]) < (to[1], to[0]);
     let (start, end) = if down { (from, to) } else { (to, from) };
     Segment {
@@ -131,36 +136,36 @@ mod tests {
     #[test]
     fn work_is_bounded() {
         let corners = [[0, 0], [300, 9_000], [600, 0]];
-        let segment = |i: usize| SourceSegment {
+        let segment = |i: usize| StoredSegment {
             from: corners[i],
             control: None,
             to: corners[(i + 1) % 3],
         };
-        let sources = CurveSources {
-            outlines: vec![SourceOutline {
+        let stored = StoredOutlines {
+            outlines: vec![StoredOutline {
                 even_odd: false,
                 segments: (0..3).map(segment).collect(),
             }],
-            ..CurveSources::default()
+            ..StoredOutlines::default()
         };
         let lattice = CurveLattice {
             units_per_cell: 1_000,
             margin_units: 0,
         };
-        let record = |row: u32| SourceRecord {
+        let record = |row: u32| RecordParts {
             cell: 2 * row,
             outlines: vec![0],
         };
         // Two of the three segments reach into row 1: 3 to find them, 32 to clip them.
-        let mut cutter = Cutter::new(&sources, 2, lattice);
+        let mut cutter = Cutter::new(&stored, 2, lattice);
         cutter.work_left = 3 + 32 + 32;
-        let both = CurveSources {
+        let both = StoredOutlines {
             records: vec![record(1), record(1)],
-            ..sources.clone()
+            ..stored.clone()
         };
         assert_eq!(work(&both, 2, lattice), cutter.work_left);
         assert!(cutter.record(&record(1)).is_ok());
         assert!(cutter.record(&record(1)).is_ok(), "the row is known");
-        assert_eq!(cutter.record(&record(2)), Err(SourceError::Work));
+        assert_eq!(cutter.record(&record(2)), Err(OutlineError::Work));
     }
 }

@@ -1,12 +1,12 @@
 //! How the entries of a list hang together: what is clipped by what, which groups there are.
 //!
-//! A list is a row of *blocks*, front to back, each of which is
+//! A list is a sequence of *blocks*, front to back. A block is one of these:
 //!
 //! - an entry that draws;
 //! - a *clip*: tests, then the blocks that they let through. A test passes over entries as far as a
 //!   later test of its own clip, the first block behind them all, or the clip's end;
 //! - a *group*: any number of masks, each `Open` (isolated), blocks, `Mask`, then `Open`, blocks,
-//!   `Close`. A mask passes over all that follows it as far as behind the `Close`.
+//!   `Close`. A mask passes over all that follows it, up to and with the `Close`.
 //!
 //! Where a clip begins and ends follows from where its tests jump: it is the shortest run of entries
 //! from its first test on that no test inside it leaves.
@@ -16,10 +16,10 @@ use std::ops::Range;
 use super::cell::{Entry, EntryKind};
 use super::control::{BlendMode, OPEN_ISOLATED};
 
-/// Groups and clips that may lie in one another: what an evaluator keeps for each is an array of so
-/// many. Deeper drawings are for the baker to flatten.
+/// Groups and clips that may be nested: evaluators keep an array of so many frames. The baker
+/// makes an image of what nests deeper.
 pub const MAX_FRAMES: u32 = 32;
-/// Clips that parsing enters before those with one end become one. Bounds its recursion.
+/// Nested clips that parsing enters, before clips with one end are joined. Bounds its recursion.
 const MAX_DEPTH: u32 = 64;
 
 /// A part of a list. Numbers count entries from the list's first.
@@ -115,6 +115,7 @@ pub fn list_blocks(entries: &[Entry]) -> Result<Vec<Block>, ListFault> {
 /// # Errors
 /// [`ListFault`] with the first rule that is broken.
 pub fn list_frames(entries: &[Entry]) -> Result<u32, ListFault> {
+    // Lists that only draw need no parsing.
     if entries.iter().all(|entry| entry.kind.draws()) {
         return Ok(0);
     }
@@ -133,6 +134,8 @@ fn frames_of(blocks: &[Block], entries: &[Entry]) -> u32 {
     let of = |block: &Block| match block {
         Block::Draw(_) => 0,
         Block::Clip { tests, body } => {
+            // While tests run, each place where a jump may still end takes a frame. Behind them one
+            // frame stands for the whole clip.
             waiting_jumps(tests.clone(), entries).max(1 + frames_of(body, entries))
         }
         Block::Group { masks, body, .. } => {
@@ -149,6 +152,7 @@ fn waiting_jumps(tests: Range<usize>, entries: &[Entry]) -> u32 {
     let mut waiting: Vec<usize> = Vec::new();
     let mut most = 0;
     for at in tests {
+        // Jumps that end here have arrived; jumps to one place share a frame.
         waiting.retain(|&target| target > at);
         let target = jump_target(at, &entries[at]);
         if !waiting.contains(&target) {
@@ -172,6 +176,7 @@ fn bracket_ends(entries: &[Entry]) -> Result<Vec<usize>, ListFault> {
             }
             _ => {}
         }
+        // Refused here already: it bounds how deep `Parser` recurses into groups.
         if open.len() > MAX_FRAMES as usize {
             return Err(fault(at, ListFaultKind::Frames));
         }
@@ -214,7 +219,7 @@ impl Parser<'_> {
         let (close, tests_end) = self.clip_range(start, end)?;
         let mut body = self.blocks(tests_end..close, depth + 1)?;
         let mut tests = start..tests_end;
-        // What one clip alone guards within another is guarded by both.
+        // A clip whose body is one clip is joined with it: both guard the same blocks.
         if let [Block::Clip { tests: inner, .. }] = body.as_slice() {
             tests.end = inner.end;
             let Some(Block::Clip { body: inner, .. }) = body.pop() else {
@@ -229,6 +234,7 @@ impl Parser<'_> {
     fn clip_range(&self, start: usize, end: usize) -> Result<(usize, usize), ListFault> {
         let target = |at: usize| jump_target(at, &self.entries[at]);
         let jump = |at| fault(at, ListFaultKind::Jump);
+        // The clip ends where its farthest jump ends, so each test on the way may move its end.
         let (mut close, mut tests_end) = (target(start), start + 1);
         let mut at = start + 1;
         while at < close.min(end) {
@@ -238,12 +244,14 @@ impl Parser<'_> {
                     tests_end = tests_end.max(close).max(at + 1);
                     close = target(at);
                 }
+                // A group lies in the clip as a whole; it is parsed later, with the body.
                 EntryKind::Open => at = self.ends[at],
                 EntryKind::Close | EntryKind::Mask => return Err(jump(start)),
                 _ => {}
             }
             at += 1;
         }
+        // `at` is past `close` where a group begins inside the clip and ends behind it.
         if close > end || at != close {
             return Err(jump(start));
         }
@@ -257,10 +265,13 @@ impl Parser<'_> {
             }
             at += 1;
         }
+        // Tests behind these that jump to the end guard the same body: they are tests of this clip,
+        // not clips in its body.
         let more = self.entries[tests_end..close].iter().zip(tests_end..);
         let guards =
             more.take_while(|&(entry, at)| entry.kind == EntryKind::Test && target(at) == close);
         tests_end += guards.count();
+        // A clip without a body shows nothing.
         if tests_end >= close {
             return Err(jump(start));
         }

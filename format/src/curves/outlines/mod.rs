@@ -16,27 +16,27 @@ const MAX_WORK: u64 = 1 << 31;
 
 /// Outlines and where they are cut.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct CurveSources {
+pub struct StoredOutlines {
     /// A quadratic whose part in a cell stays within this many units of its chord becomes a line.
     pub flatness_units: f32,
     /// The outlines.
-    pub outlines: Vec<SourceOutline>,
+    pub outlines: Vec<StoredOutline>,
     /// One a curve record, in the records' order.
-    pub records: Vec<SourceRecord>,
+    pub records: Vec<RecordParts>,
 }
 
 /// The outline of one shape.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct SourceOutline {
+pub struct StoredOutline {
     /// Inside where the winding is odd instead of not zero.
     pub even_odd: bool,
     /// Its contours one after the other, each along its own direction. Contours are closed.
-    pub segments: Vec<SourceSegment>,
+    pub segments: Vec<StoredSegment>,
 }
 
 /// A line or quadratic on the lattice of all cells: in units, origin at the corner of cell (0, 0).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SourceSegment {
+pub struct StoredSegment {
     /// First end along the contour.
     pub from: [i32; 2],
     /// Control point of a quadratic, inside the box of the ends: both coordinates are monotone.
@@ -45,7 +45,7 @@ pub struct SourceSegment {
     pub to: [i32; 2],
 }
 
-impl SourceSegment {
+impl StoredSegment {
     /// Whether the control point lies in the box of the ends.
     fn is_monotone(&self) -> bool {
         self.control.is_none_or(|control| {
@@ -59,19 +59,19 @@ impl SourceSegment {
 
 /// What one record is cut from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct SourceRecord {
+pub struct RecordParts {
     /// Index of the cell.
     pub cell: u32,
     /// Indices of the outlines; all of one fill rule, and their windings may be added.
     pub outlines: Vec<u32>,
 }
 
-impl CurveSources {
+impl StoredOutlines {
     /// The words of all records, one record after the other.
     ///
     /// # Errors
-    /// [`SourceError`] when the sources make no records.
-    pub fn records(&self, grid: &Grid, lattice: CurveLattice) -> Result<Vec<u32>, SourceError> {
+    /// [`OutlineError`] when no records can be made from them.
+    pub fn records(&self, grid: &Grid, lattice: CurveLattice) -> Result<Vec<u32>, OutlineError> {
         self.records_within(grid, lattice, u64::MAX)
     }
 
@@ -80,56 +80,56 @@ impl CurveSources {
         cutter::work(self, grid.size_cells[0], lattice) <= MAX_WORK
     }
 
-    /// As [`CurveSources::records`], giving up beyond `max_words`.
+    /// As [`StoredOutlines::records`], giving up beyond `max_words`.
     pub(crate) fn records_within(
         &self,
         grid: &Grid,
         lattice: CurveLattice,
         max_words: u64,
-    ) -> Result<Vec<u32>, SourceError> {
+    ) -> Result<Vec<u32>, OutlineError> {
         self.check(grid)?;
         let mut cutter = Cutter::new(self, grid.size_cells[0], lattice);
         let mut words = Vec::new();
         for record in &self.records {
             words.extend(cutter.record(record)?);
             if words.len() as u64 > max_words {
-                return Err(SourceError::Length);
+                return Err(OutlineError::Length);
             }
         }
         Ok(words)
     }
 
     /// Every index names something and quadratics are monotone.
-    fn check(&self, grid: &Grid) -> Result<(), SourceError> {
+    fn check(&self, grid: &Grid) -> Result<(), OutlineError> {
         let [columns, rows] = grid.size_cells.map(u64::from);
-        let names = |record: &SourceRecord| {
+        let names = |record: &RecordParts| {
             let mut outlines = record.outlines.iter();
             u64::from(record.cell) < columns * rows
                 && outlines.all(|&outline| (outline as usize) < self.outlines.len())
         };
         if !self.records.iter().all(names) {
-            return Err(SourceError::Index);
+            return Err(OutlineError::Index);
         }
         if self
             .outlines
             .iter()
             .any(|outline| outline.segments.is_empty())
         {
-            return Err(SourceError::Index);
+            return Err(OutlineError::Index);
         }
         let mut segments = self.outlines.iter().flat_map(|outline| &outline.segments);
-        if !segments.all(SourceSegment::is_monotone) {
-            return Err(SourceError::Control);
+        if !segments.all(StoredSegment::is_monotone) {
+            return Err(OutlineError::Control);
         }
         Ok(())
     }
 }
 
-/// Why sources make no records.
+/// Why no records can be made from outlines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
-pub enum SourceError {
-    /// The stored bytes are not those of sources.
+pub enum OutlineError {
+    /// The section's bytes have no meaning.
     #[error("the bytes of the outlines have no meaning")]
     Stream,
     /// A record names a cell or an outline that does not exist, or an outline has no segments.

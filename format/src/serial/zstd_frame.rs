@@ -83,6 +83,7 @@ impl Head {
         if descriptor & 1 << 3 != 0 {
             return None;
         }
+        // The order of what follows the descriptor: window, dictionary, content size.
         let single_segment = descriptor & 1 << 5 != 0;
         let window = match single_segment {
             true => None,

@@ -1,7 +1,7 @@
-//! Sources to bytes and back: planes of like bytes one after the other, then the digits.
+//! Stored outlines to bytes and back: planes of like bytes one after the other, then the digits.
 
 use super::bits::{BitReader, BitWriter, unzigzag, zigzag};
-use super::{CurveSources, SourceError, SourceOutline, SourceRecord, SourceSegment};
+use super::{OutlineError, RecordParts, StoredOutline, StoredOutlines, StoredSegment};
 
 /// Bits of a segment's kind.
 const QUADRATIC: u8 = 1;
@@ -35,8 +35,10 @@ impl Head {
     /// Memory that reading takes, in bytes, before the words themselves.
     pub(crate) fn memory_bytes(&self) -> u64 {
         let rows = size_of::<crate::curves::cut::Segment>() as u64;
-        let segment = size_of::<SourceSegment>() as u64 + size_of::<SourceOutline>() as u64;
-        let record = size_of::<SourceRecord>() as u64 + 16;
+        // The head does not say how many outlines there are: at worst one a segment.
+        let segment = size_of::<StoredSegment>() as u64 + size_of::<StoredOutline>() as u64;
+        // Plus the record's cell and count, held while the planes are read.
+        let record = size_of::<RecordParts>() as u64 + 16;
         u64::from(self.segments) * (segment + rows)
             + u64::from(self.records) * record
             + u64::from(self.parts) * 4
@@ -115,10 +117,11 @@ impl Pen {
         way
     }
 
-    fn advance(&mut self, segment: &SourceSegment) {
+    fn advance(&mut self, segment: &StoredSegment) {
         let corner = segment.control.unwrap_or(segment.from);
         self.at = wide(segment.to);
         self.tangent = minus(self.at, wide(corner));
+        // The control point may lie on the end; then the curve arrives along its chord.
         if self.tangent == [0; 2] {
             self.tangent = minus(self.at, wide(segment.from));
         }
@@ -142,6 +145,7 @@ fn minus(a: [i64; 2], b: [i64; 2]) -> [i64; 2] {
 }
 
 fn plus(a: [i64; 2], b: [i64; 2]) -> [i64; 2] {
+    // A damaged stream can name any number; `narrow` refuses what is no coordinate.
     [a[0].wrapping_add(b[0]), a[1].wrapping_add(b[1])]
 }
 
@@ -160,7 +164,7 @@ struct Planes {
 }
 
 impl Planes {
-    fn segment(&mut self, pen: &mut Pen, segment: &SourceSegment, outline: u8) {
+    fn segment(&mut self, pen: &mut Pen, segment: &StoredSegment, outline: u8) {
         let mut kind = outline;
         if outline != 0 || pen.at != wide(segment.from) {
             kind |= MOVE;
@@ -168,6 +172,7 @@ impl Planes {
             self.moves.push(self.digits.vector(way));
             pen.begin(wide(segment.from));
         }
+        // The last segment of a contour ends at its start, which takes no vector.
         let closes = wide(segment.to) == pen.start;
         if closes {
             kind |= CLOSE;
@@ -188,11 +193,11 @@ impl Planes {
     }
 }
 
-/// The bytes of `OUTL` for sources that make `words`.
-pub(crate) fn encode(sources: &CurveSources, words: &[u32]) -> Vec<u8> {
+/// The bytes of `OUTL`; `words` are the records made from `stored`.
+pub(crate) fn encode(stored: &StoredOutlines, words: &[u32]) -> Vec<u8> {
     let mut planes = Planes::default();
     let mut pen = Pen::default();
-    for outline in &sources.outlines {
+    for outline in &stored.outlines {
         let rule = if outline.even_odd { EVEN_ODD } else { 0 };
         let mut first = OUTLINE | rule;
         for segment in &outline.segments {
@@ -200,26 +205,26 @@ pub(crate) fn encode(sources: &CurveSources, words: &[u32]) -> Vec<u8> {
         }
     }
     let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-    let parts = sources.records.iter().map(|record| record.outlines.len());
+    let parts = stored.records.iter().map(|record| record.outlines.len());
     let head: [u32; HEAD_WORDS] = [
         count(words.len()),
         count(planes.kinds.len()),
-        count(sources.records.len()),
+        count(stored.records.len()),
         count(parts.sum()),
-        sources.flatness_units.to_bits(),
+        stored.flatness_units.to_bits(),
     ];
     let mut bytes: Vec<u8> = head.iter().flat_map(|word| word.to_le_bytes()).collect();
     bytes.extend(checksum(words));
     for plane in [planes.kinds, planes.moves, planes.controls, planes.ends] {
         bytes.extend(plane);
     }
-    bytes.extend(record_planes(&sources.records));
+    bytes.extend(record_planes(&stored.records));
     bytes.extend(planes.digits.into_bytes());
     bytes
 }
 
 /// Steps from cell to cell, numbers of outlines, and steps from outline to outline.
-fn record_planes(records: &[SourceRecord]) -> Vec<u8> {
+fn record_planes(records: &[RecordParts]) -> Vec<u8> {
     let (mut cells, mut counts, mut outlines) = (Vec::new(), Vec::new(), Vec::new());
     let (mut cell, mut outline) = (0, 0);
     for record in records {
@@ -255,40 +260,41 @@ fn put_varint(bytes: &mut Vec<u8>, mut value: u64) {
 struct Bytes<'a>(&'a [u8]);
 
 impl<'a> Bytes<'a> {
-    fn take(&mut self, count: usize) -> Result<&'a [u8], SourceError> {
-        let (taken, rest) = self.0.split_at_checked(count).ok_or(SourceError::Stream)?;
+    fn take(&mut self, count: usize) -> Result<&'a [u8], OutlineError> {
+        let (taken, rest) = self.0.split_at_checked(count).ok_or(OutlineError::Stream)?;
         self.0 = rest;
         Ok(taken)
     }
 
-    fn word(&mut self) -> Result<u32, SourceError> {
-        let bytes = self.take(4)?.try_into().map_err(|_| SourceError::Stream)?;
+    fn word(&mut self) -> Result<u32, OutlineError> {
+        let bytes = self.take(4)?.try_into().map_err(|_| OutlineError::Stream)?;
         Ok(u32::from_le_bytes(bytes))
     }
 
-    fn varint(&mut self) -> Result<u64, SourceError> {
+    fn varint(&mut self) -> Result<u64, OutlineError> {
         let mut value = 0;
+        // Five bytes hold the 33 bits of a difference.
         for shift in (0..35).step_by(7) {
-            let (&byte, rest) = self.0.split_first().ok_or(SourceError::Stream)?;
+            let (&byte, rest) = self.0.split_first().ok_or(OutlineError::Stream)?;
             self.0 = rest;
             value |= u64::from(byte & 0x7F) << shift;
             if byte & 0x80 == 0 {
                 return Ok(value);
             }
         }
-        Err(SourceError::Stream)
+        Err(OutlineError::Stream)
     }
 
     /// The index that is one step further.
-    fn step(&mut self, from: &mut u32) -> Result<u32, SourceError> {
+    fn step(&mut self, from: &mut u32) -> Result<u32, OutlineError> {
         let to = i64::from(*from) + unzigzag(self.varint()?);
-        *from = u32::try_from(to).map_err(|_| SourceError::Stream)?;
+        *from = u32::try_from(to).map_err(|_| OutlineError::Stream)?;
         Ok(*from)
     }
 }
 
 /// Reads the head alone, so that its numbers can be held against budgets.
-pub(crate) fn decode_head(bytes: &[u8]) -> Result<Head, SourceError> {
+pub(crate) fn decode_head(bytes: &[u8]) -> Result<Head, OutlineError> {
     let mut bytes = Bytes(bytes);
     let head = Head {
         words: bytes.word()?,
@@ -299,18 +305,19 @@ pub(crate) fn decode_head(bytes: &[u8]) -> Result<Head, SourceError> {
         checksum: bytes
             .take(CHECKSUM_BYTES)?
             .try_into()
-            .map_err(|_| SourceError::Stream)?,
+            .map_err(|_| OutlineError::Stream)?,
     };
     let flat = head.flatness_units.is_finite() && head.flatness_units >= 0.0;
-    flat.then_some(head).ok_or(SourceError::Stream)
+    flat.then_some(head).ok_or(OutlineError::Stream)
 }
 
 /// Reads a whole stream; what it holds of memory stands in its head.
-pub(crate) fn decode(bytes: &[u8]) -> Result<CurveSources, SourceError> {
+pub(crate) fn decode(bytes: &[u8]) -> Result<StoredOutlines, OutlineError> {
     let head = decode_head(bytes)?;
     let mut bytes = Bytes(bytes);
     bytes.take(4 * HEAD_WORDS + CHECKSUM_BYTES)?;
     let kinds = bytes.take(head.segments as usize)?;
+    // The kinds say how long the planes behind them are.
     let count = |has: fn(u8) -> bool| kinds.iter().filter(|&&kind| has(kind)).count();
     let moves = bytes.take(count(|kind| kind & MOVE != 0))?;
     let controls = bytes.take(count(|kind| kind & QUADRATIC != 0))?;
@@ -323,22 +330,22 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<CurveSources, SourceError> {
         digits: BitReader::new(bytes.0),
         pen: Pen::default(),
     };
-    let outlines = reader.outlines(kinds).ok_or(SourceError::Stream)?;
+    let outlines = reader.outlines(kinds).ok_or(OutlineError::Stream)?;
     if !reader.digits.is_at_end() {
-        return Err(SourceError::Stream);
+        return Err(OutlineError::Stream);
     }
-    Ok(CurveSources {
+    Ok(StoredOutlines {
         flatness_units: head.flatness_units,
         outlines,
         records,
     })
 }
 
-fn decode_records(bytes: &mut Bytes<'_>, head: Head) -> Result<Vec<SourceRecord>, SourceError> {
+fn decode_records(bytes: &mut Bytes<'_>, head: Head) -> Result<Vec<RecordParts>, OutlineError> {
     // Every record takes two bytes and every part one, so the stream's length bounds them.
     let least = 2 * u64::from(head.records) + u64::from(head.parts);
     if least > bytes.0.len() as u64 {
-        return Err(SourceError::Stream);
+        return Err(OutlineError::Stream);
     }
     let mut cell = 0;
     let cells: Vec<u32> = (0..head.records)
@@ -349,13 +356,13 @@ fn decode_records(bytes: &mut Bytes<'_>, head: Head) -> Result<Vec<SourceRecord>
         .collect::<Result<_, _>>()?;
     let total = counts.iter().fold(0, |sum: u64, &n| sum.saturating_add(n));
     if total != u64::from(head.parts) {
-        return Err(SourceError::Stream);
+        return Err(OutlineError::Stream);
     }
     let mut outline = 0;
     let record = |(cell, count)| {
         let outlines = (0..count).map(|_| bytes.step(&mut outline));
         let outlines = outlines.collect::<Result<_, _>>()?;
-        Ok(SourceRecord { cell, outlines })
+        Ok(RecordParts { cell, outlines })
     };
     cells.into_iter().zip(counts).map(record).collect()
 }
@@ -376,25 +383,26 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn outlines(&mut self, kinds: &[u8]) -> Option<Vec<SourceOutline>> {
-        let mut outlines: Vec<SourceOutline> = Vec::new();
+    fn outlines(&mut self, kinds: &[u8]) -> Option<Vec<StoredOutline>> {
+        let mut outlines: Vec<StoredOutline> = Vec::new();
         for &kind in kinds {
             if !is_kind(kind) {
                 return None;
             }
             if kind & OUTLINE != 0 {
-                outlines.push(SourceOutline {
+                outlines.push(StoredOutline {
                     even_odd: kind & EVEN_ODD != 0,
                     segments: Vec::new(),
                 });
             }
             let segment = self.segment(kind)?;
+            // Fails where the first segment begins no outline.
             outlines.last_mut()?.segments.push(segment);
         }
         Some(outlines)
     }
 
-    fn segment(&mut self, kind: u8) -> Option<SourceSegment> {
+    fn segment(&mut self, kind: u8) -> Option<StoredSegment> {
         if kind & MOVE != 0 {
             let way = self.digits.vector(*self.moves.next()?)?;
             self.pen.begin(plus(self.pen.at, way));
@@ -413,7 +421,7 @@ impl Reader<'_> {
         } else {
             plus(to, self.digits.vector(*self.ends.next()?)?)
         };
-        let segment = SourceSegment {
+        let segment = StoredSegment {
             from: narrow(self.pen.at)?,
             control,
             to: narrow(to)?,

@@ -1,7 +1,7 @@
-//! Vectors of small integers: a byte for the sizes of both coordinates, which packs well, and the
-//! digits below their leading ones, which are noise and stand as they are.
+//! Vectors of small integers. A byte holds the sizes of both coordinates, which packs well. The
+//! digits below the leading ones are noise and are stored as they are.
 
-/// Sizes that a byte's half can name; this one says that six bits of the digits name it.
+/// Half a byte holds a smaller size. This one says that six bits before the digits hold the size.
 const ESCAPE: u32 = 15;
 const ESCAPE_BITS: u32 = 6;
 
@@ -31,6 +31,7 @@ impl BitWriter {
         let mut byte = 0;
         for (axis, number) in vector.map(zigzag).into_iter().enumerate() {
             let size = u64::BITS - number.leading_zeros();
+            // Six bits suffice: sums of a few 32-bit coordinates have fewer than 40 digits.
             if size >= ESCAPE {
                 self.put(u64::from(size), ESCAPE_BITS);
             }
