@@ -480,3 +480,50 @@ fn colours_and_matrices_reach_the_file() {
     assert_eq!(sampler["mask"], true);
     assert_eq!(info["shapes"][0]["color"][2], 1.0);
 }
+
+#[test]
+fn no_command_overwrites_what_it_reads() {
+    let bench = Bench::new();
+    let baked = bench.bake_square();
+    for arguments in [
+        &["bake", "square.svg", "-o", "square.svg"] as &[&str],
+        &[
+            "bake",
+            "square.svg",
+            "-o",
+            "other.vtex",
+            "--depfile",
+            "square.svg",
+        ],
+        &["preview", "square.vtex", "-o", "square.vtex", "--size", "8"],
+    ] {
+        bench.fails(arguments, 1, "would be overwritten");
+    }
+    let depfile = ["bake", "square.svg", "-o", "x.vtex", "--depfile", "x.vtex"];
+    bench.fails(&depfile, 1, "--depfile");
+    assert_eq!(
+        fs::read(bench.path("square.svg")).unwrap(),
+        SQUARE.as_bytes()
+    );
+    assert_eq!(fs::read(bench.path("square.vtex")).unwrap(), baked);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn names_need_not_be_utf8() {
+    use std::os::unix::ffi::OsStrExt as _;
+    let bench = Bench::new();
+    let name = |extension: &str| {
+        let bytes = [b"b\xffd.", extension.as_bytes()].concat();
+        std::ffi::OsStr::from_bytes(&bytes).to_owned()
+    };
+    fs::write(bench.folder.path().join(name("svg")), SQUARE).unwrap();
+    let mut bake = bench.command(&["bake", "--format", "json", "-o"]);
+    let output = bake.arg(name("vtex")).arg(name("svg")).output().unwrap();
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let mut check = bench.command(&["validate", "--format", "json"]);
+    let output = check.arg(name("vtex")).output().unwrap();
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("b\u{fffd}d.vtex"), "{text}");
+}

@@ -10,7 +10,7 @@ use vtex_truth::picture::View;
 use vtex_truth::texture::FilterMode;
 
 use super::Format;
-use super::values::{Color, Matrix, Size, color, matrix, size, view};
+use super::values::{Color, Matrix, Size, color, matrix, number, size, view};
 
 /// Bake SVG drawings into vector textures (.vtex), and inspect, check, compare and render them.
 #[derive(Debug, Parser)]
@@ -333,7 +333,7 @@ pub(crate) struct Compare {
     #[command(flatten)]
     pub(crate) lookup: Lookup,
     /// Exit with 7 if the PSNR at a zoom is below X dB
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", value_parser = number)]
     pub(crate) min_psnr: Option<f64>,
     /// Number of windows to compare at each zoom above 1
     #[arg(long, value_name = "N", default_value_t = WINDOWS, value_parser = clap::value_parser!(u32).range(1..=1024))]

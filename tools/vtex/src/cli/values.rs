@@ -51,6 +51,17 @@ pub(super) fn view(text: &str) -> Result<View, String> {
     }
 }
 
+/// A finite number.
+///
+/// # Errors
+/// A sentence when the text is none.
+pub(super) fn number(text: &str) -> Result<f64, String> {
+    match text.trim().parse() {
+        Ok(number) if f64::is_finite(number) => Ok(number),
+        _ => Err("expected a number".to_owned()),
+    }
+}
+
 #[expect(clippy::cast_possible_truncation, reason = "the format stores f32")]
 pub(super) fn matrix(text: &str) -> Result<Matrix, String> {
     numbers(text).map(|matrix: [f64; 6]| Matrix(matrix.map(|number| number as f32)))

@@ -22,7 +22,7 @@ use crate::baking::workers::Workers;
 use crate::cli::args::Bake;
 use crate::cli::{Console, ExitCode, Failure, Format, Outcome};
 use crate::files::input::{self, Input};
-use crate::files::output;
+use crate::files::{lossy, output};
 
 /// Most warnings printed for one file without `--verbose`.
 const WARNINGS_SHOWN: usize = 3;
@@ -88,6 +88,7 @@ impl<'a> Job<'a> {
             .check()
             .map_err(|error| Failure::usage(error.to_string()))?;
         let pairs = pair_up(input::expand(&args.inputs)?, &args.output)?;
+        keep_inputs(&pairs, args.depfile.as_deref())?;
         // Checked here too, so that a missing folder is reported once and not by every worker.
         ImageFolders::new(&args.options.allow_images)?;
         let threads = rayon::current_num_threads();
@@ -230,7 +231,7 @@ impl<'a> Job<'a> {
         );
         let warnings = summary.warnings;
         let summary = json!({
-            "input": pair.input.path, "output": pair.output, "bytes": bytes,
+            "input": lossy(&pair.input.path), "output": lossy(&pair.output), "bytes": bytes,
             "shapes": shapes, "layers": layers, "seconds": seconds, "cached": cached,
             "code": code as u8, "warnings": super::info::warnings_json(&warnings),
         });
@@ -273,7 +274,7 @@ impl<'a> Job<'a> {
                 .map(|(pair, result)| match result {
                     Ok(baked) => baked.summary.clone(),
                     Err(failure) => json!({
-                        "input": pair.input.path, "code": failure.code as u8,
+                        "input": lossy(&pair.input.path), "code": failure.code as u8,
                         "error": failure.message,
                     }),
                 });
@@ -347,6 +348,25 @@ fn pair_up(inputs: Vec<Input>, out: &Path) -> Outcome<Vec<Pair>> {
 
 fn ends_with_slash(path: &Path) -> bool {
     path.to_string_lossy().ends_with(std::path::MAIN_SEPARATOR)
+}
+
+/// Refuses outputs, the depfile among them, that would overwrite an input or each other.
+fn keep_inputs(pairs: &[Pair], depfile: Option<&Path>) -> Outcome<()> {
+    let inputs = output::taken(pairs.iter().map(|pair| pair.input.path.as_path()));
+    for pair in pairs {
+        output::keep_apart(&pair.output, &inputs)?;
+    }
+    let Some(depfile) = depfile else {
+        return Ok(());
+    };
+    output::keep_apart(depfile, &inputs)?;
+    if pairs.iter().any(|pair| pair.output == depfile) {
+        let name = depfile.display();
+        return Err(Failure::usage(format!(
+            "{name} is named as output and as --depfile; give them different names"
+        )));
+    }
+    Ok(())
 }
 
 /// One Makefile rule for each output, and a rule without recipe for each input: without that, make

@@ -13,7 +13,7 @@ use vtex_truth::texture::{RasterTexture, Shooter, TODAY_TEXELS, canvas_options};
 use crate::baking::fonts::FontLibrary;
 use crate::cli::args::Compare;
 use crate::cli::{Console, ExitCode, Failure, Format, Outcome};
-use crate::files::{input, output};
+use crate::files::{input, lossy, output};
 use crate::texture;
 
 /// Runs `vtex compare`.
@@ -130,7 +130,7 @@ fn json(args: &Compare, reports: &[ZoomReport], noise_db: Option<&[f64]>) -> Val
         zoom
     };
     json!({
-        "svg": args.svg, "file": args.file, "size": args.size, "spp": args.lookup.spp,
+        "svg": lossy(&args.svg), "file": lossy(&args.file), "size": args.size, "spp": args.lookup.spp,
         "filter": format!("{:?}", args.lookup.filter).to_lowercase(),
         "backend": format!("{:?}", args.lookup.backend).to_lowercase(),
         "zooms": reports.iter().enumerate().map(zoom).collect::<Vec<_>>(),

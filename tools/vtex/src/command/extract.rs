@@ -9,7 +9,7 @@ use vtex_truth::srgb;
 
 use crate::cli::args::Extract;
 use crate::cli::{Console, ExitCode, Outcome};
-use crate::files::{input, output};
+use crate::files::{input, lossy, output};
 use crate::texture;
 use crate::texture::heat::{cell_loads, heat_map};
 
@@ -27,7 +27,13 @@ pub(super) fn run(args: &Extract, console: Console) -> Outcome<ExitCode> {
     folder.layers(&file)?;
     folder.images(&file)?;
     match console.format {
-        crate::cli::Format::Json => console.json(&json!(folder.written))?,
+        crate::cli::Format::Json => console.json(&json!(
+            folder
+                .written
+                .iter()
+                .map(|path| lossy(path))
+                .collect::<Vec<_>>()
+        ))?,
         crate::cli::Format::Text => {
             let (count, name) = (folder.written.len(), args.output.display());
             console.note(&format!("{name}: {count} files"));

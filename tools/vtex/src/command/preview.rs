@@ -11,6 +11,7 @@ use crate::texture;
 
 /// Runs `vtex preview`.
 pub(super) fn run(args: &Preview, console: Console) -> Outcome<ExitCode> {
+    output::keep_apart(&args.output, &output::taken([args.file.as_path()]))?;
     let bytes = input::read(&args.file)?;
     let file = texture::parse(&args.file, &bytes)?;
     let view = args.view.unwrap_or(View::WHOLE);

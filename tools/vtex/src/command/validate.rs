@@ -5,7 +5,7 @@ use vtex_format::{Fault, Issue, Limits, validate};
 
 use crate::cli::args::Validate;
 use crate::cli::{Console, ExitCode, Failure, Format, Outcome};
-use crate::files::input;
+use crate::files::{input, lossy};
 
 /// Runs `vtex validate`.
 pub(super) fn run(args: &Validate, console: Console) -> Outcome<ExitCode> {
@@ -33,12 +33,12 @@ pub(super) fn run(args: &Validate, console: Console) -> Outcome<ExitCode> {
                         format!("{name}: {count} issues found; bake or download the file again");
                     console.failure(&Failure::new(code(&issues), message));
                 }
-                reports.push(json!({"file": path, "issues": issues_json(&issues)}));
+                reports.push(json!({"file": lossy(path), "issues": issues_json(&issues)}));
             }
             Err(failure) => {
                 console.failure(&failure);
                 worst = worst.max(failure.code);
-                reports.push(json!({"file": path, "error": failure.message}));
+                reports.push(json!({"file": lossy(path), "error": failure.message}));
             }
         }
     }

@@ -1,5 +1,6 @@
 //! Writing files: each is written completely or not at all.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -33,6 +34,27 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Outcome<()> {
 /// Follows links, so that writing to a link replaces its target and not the link.
 fn resolve(path: &Path) -> PathBuf {
     fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
+}
+
+/// Files that a command must not write to, without links.
+pub(crate) fn taken<'a>(paths: impl IntoIterator<Item = &'a Path>) -> BTreeSet<PathBuf> {
+    paths.into_iter().map(resolve).collect()
+}
+
+/// Refuses an output that is one of the files that the command reads or writes otherwise.
+///
+/// # Errors
+/// When `output` is an existing file in `taken`.
+pub(crate) fn keep_apart(output: &Path, taken: &BTreeSet<PathBuf>) -> Outcome<()> {
+    let target = resolve(output);
+    // Devices and pipes may be read and written.
+    if target.is_file() && taken.contains(&target) {
+        let name = output.display();
+        return Err(Failure::usage(format!(
+            "{name} is an input too and would be overwritten; name another output"
+        )));
+    }
+    Ok(())
 }
 
 fn folder_of(path: &Path) -> &Path {
@@ -122,6 +144,22 @@ mod tests {
         write(&path, b"short").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"short");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn an_output_is_no_input() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("x.svg");
+        write(&path, b"a drawing").unwrap();
+        let same = folder
+            .path()
+            .join("../")
+            .join(folder.path().file_name().unwrap());
+        let inputs = taken([path.as_path(), Path::new("-")]);
+        let failure = keep_apart(&same.join("x.svg"), &inputs).unwrap_err();
+        assert_eq!(failure.code, ExitCode::Usage, "{failure}");
+        keep_apart(&folder.path().join("y.svg"), &inputs).unwrap();
+        keep_apart(Path::new("-"), &inputs).unwrap();
     }
 
     #[cfg(target_os = "linux")]
