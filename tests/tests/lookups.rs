@@ -194,7 +194,7 @@ fn resources() -> Resources {
 fn own_drawings_look_as_the_painter_paints_them() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/svg");
     let files = vtex_testing::corpus::svg_files(&folder);
-    let (solid, wrong, _) = compare(&files, &resources(), 20_000);
+    let (solid, wrong, _) = compare(&files, &resources(), 5_000);
     assert!(solid >= 350, "only {solid} drawings are solid");
     assert_eq!(wrong, 0);
 }
