@@ -1,7 +1,8 @@
-//! Support of the test suites: an adapter to run on, fonts, random textures, random numbers.
+//! Support of the test suites: comparing lookups, an adapter to run on, fonts, random textures, random numbers.
 //!
 //! Functions here panic when something is wrong: they run inside tests.
 
+pub mod colors;
 pub mod fixture;
 pub mod fonts;
 pub mod gpu;

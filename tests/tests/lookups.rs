@@ -191,7 +191,7 @@ fn resources() -> Resources {
 }
 
 #[test]
-fn own_drawings_look_as_the_painter_paints_them() {
+fn own_drawings_look_as_the_oracle_says() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/svg");
     let files = vtex_testing::corpus::svg_files(&folder);
     let (solid, wrong, _) = compare(&files, &resources(), 5_000);
@@ -200,7 +200,7 @@ fn own_drawings_look_as_the_painter_paints_them() {
 }
 
 #[test]
-fn a_dozen_of_the_corpus_look_as_the_painter_paints_them() {
+fn a_dozen_of_the_corpus_look_as_the_oracle_says() {
     let Some(corpus) = Corpus::find("lookups of a dozen real drawings") else {
         return;
     };
@@ -213,7 +213,7 @@ fn a_dozen_of_the_corpus_look_as_the_painter_paints_them() {
 }
 
 #[test]
-fn the_solid_corpus_looks_as_the_painter_paints_it() {
+fn the_solid_corpus_looks_as_the_oracle_says() {
     let untested = "lookups of every solid drawing of the corpus";
     if !slow_only(untested) {
         return;

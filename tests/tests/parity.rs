@@ -10,6 +10,7 @@ use vtex_shaders::{
     BatchQuery, BindingSlot, FilterMode, PackOptions, batch_kernel, link, pack, scene_context,
     shader_blob, spec_key,
 };
+use vtex_tests::colors::differing;
 use vtex_tests::fixture::random_texture;
 use vtex_tests::gpu::Gpu;
 use vtex_tests::random::Random;
@@ -116,36 +117,13 @@ fn twin(words: &[u32], queries: &[BatchQuery]) -> Vec<[f32; 4]> {
         .collect()
 }
 
-fn distance(a: &[f32; 4], b: &[f32; 4]) -> f32 {
-    let difference = a.iter().zip(b).map(|(a, b)| (a - b).abs());
-    // A value that is no number is as far away as can be.
-    difference.fold(0.0, |m, d| {
-        if d <= m {
-            m
-        } else if d.is_nan() {
-            f32::INFINITY
-        } else {
-            d
-        }
-    })
-}
-
-/// Lookups that differ by more than `tolerance`.
-fn differing(a: &[[f32; 4]], b: &[[f32; 4]], tolerance: f32) -> usize {
-    assert_eq!(a.len(), b.len(), "one colour a query");
-    a.iter()
-        .zip(b)
-        .filter(|(a, b)| distance(a, b) > tolerance)
-        .count()
-}
-
 fn check(name: &str, filter: FilterMode, torn: f64, [cpu, gpu]: [&[[f32; 4]]; 2]) {
     let tolerance = if filter == FilterMode::Point {
         SAME
     } else {
         FILTERED
     };
-    let count = differing(cpu, gpu, tolerance);
+    let count = differing(cpu, gpu, tolerance).len();
     let allowed = match filter {
         FilterMode::Point => DIFFERENT_SHARE * cpu.len() as f64,
         _ => torn * cpu.len() as f64,
@@ -296,7 +274,8 @@ fn the_spirv_in_a_file_is_the_same_kernel() {
         .run(&words, &queries);
     let text = wgpu::ShaderSource::Wgsl(Cow::Owned(batch_kernel(&key)));
     let from_text = gpu.kernel(text).run(&words, &queries);
-    assert_eq!(differing(&from_file.colors, &from_text.colors, 0.0), 0);
+    let apart = differing(&from_file.colors, &from_text.colors, 0.0);
+    assert!(apart.is_empty(), "{apart:?}");
 }
 
 /// Several textures in one buffer, looked up by their first word.

@@ -3,6 +3,7 @@
 use vtex_format::VtexFile;
 use vtex_runtime::{BatchQuery, BatchSampler, Gpu};
 use vtex_shaders::cpu;
+use vtex_tests::colors::differing;
 use vtex_truth::picture::Shot;
 use vtex_truth::texture::{FilterMode, Shooter, canvas_options};
 
@@ -53,17 +54,8 @@ impl Answers {
     /// Positions of the lookups that GPU and twin answer differently.
     pub(crate) fn apart(&self) -> Vec<usize> {
         let gpu = self.gpu.as_deref().unwrap_or(&self.twin);
-        let pairs = self.twin.iter().zip(gpu).enumerate();
-        pairs
-            .filter(|(_, (twin, gpu))| !same(twin, gpu))
-            .map(|(index, _)| index)
-            .collect()
+        differing(&self.twin, gpu, SAME)
     }
-}
-
-/// False for NaN.
-fn same(a: &[f32; 4], b: &[f32; 4]) -> bool {
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME)
 }
 
 /// The lookups of a picture.

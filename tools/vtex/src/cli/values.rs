@@ -34,10 +34,9 @@ pub(super) fn size(text: &str) -> Result<Size, String> {
 }
 
 fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(number).collect();
     numbers
         .ok()
-        .filter(|numbers| numbers.iter().all(|number| number.is_finite()))
         .and_then(|numbers| numbers.try_into().ok())
         .ok_or_else(|| format!("expected {N} numbers, separated by commas"))
 }

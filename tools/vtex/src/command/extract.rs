@@ -27,13 +27,7 @@ pub(super) fn run(args: &Extract, console: Console) -> Outcome<ExitCode> {
     folder.layers(&file)?;
     folder.images(&file)?;
     match console.format {
-        crate::cli::Format::Json => console.json(&json!(
-            folder
-                .written
-                .iter()
-                .map(|path| lossy(path))
-                .collect::<Vec<_>>()
-        ))?,
+        crate::cli::Format::Json => console.json(&json!(folder.written))?,
         crate::cli::Format::Text => {
             let (count, name) = (folder.written.len(), args.output.display());
             console.note(&format!("{name}: {count} files"));
@@ -44,14 +38,15 @@ pub(super) fn run(args: &Extract, console: Console) -> Outcome<ExitCode> {
 
 struct Folder {
     path: PathBuf,
-    written: Vec<PathBuf>,
+    /// Names for the report.
+    written: Vec<String>,
 }
 
 impl Folder {
     fn write(&mut self, name: &str, bytes: &[u8]) -> Outcome<()> {
         let path = self.path.join(Path::new(name));
         output::write(&path, bytes)?;
-        self.written.push(path);
+        self.written.push(lossy(&path));
         Ok(())
     }
 
