@@ -48,7 +48,8 @@ pub struct BakeConfig {
     pub mask: bool,
     /// Half width S of \[SFG22\] eq. 1, as a share of the distance range.
     pub smoothing: f32,
-    /// Width of the distance outline, \[SFG22\] eq. 2, in texels.
+    /// Width of the distance outline, \[SFG22\] eq. 2, in texels. For [`Mode::Auto`], which then
+    /// makes MSDFs alone, and [`Mode::Msdf`].
     pub outline_texels: Option<f32>,
     /// Replaces the paint of every fill: straight alpha, sRGB-encoded.
     pub fill_color: Option<[f32; 4]>,
@@ -126,6 +127,10 @@ impl BakeConfig {
             (
                 self.outline_texels.is_none_or(outline_fits),
                 "outline width must be positive and below half the distance range",
+            ),
+            (
+                self.outline_texels.is_none() || matches!(self.mode, Mode::Auto | Mode::Msdf),
+                "a distance outline needs MSDFs, which the modes curves and raster do not make",
             ),
             (
                 unit(self.fill_color),
@@ -228,6 +233,11 @@ mod tests {
             },
             BakeConfig {
                 outline_texels: Some(2.0),
+                ..BakeConfig::default()
+            },
+            BakeConfig {
+                outline_texels: Some(1.0),
+                mode: Mode::Curves,
                 ..BakeConfig::default()
             },
             BakeConfig {

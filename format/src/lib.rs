@@ -71,7 +71,7 @@ pub use curves::cut;
 pub use curves::outlines::{
     OutlineError, RecordParts, StoredOutline, StoredOutlines, StoredSegment,
 };
-pub use file::spec::{Features, SHADER_ABI, SpecKey};
+pub use file::spec::{Features, SHADER_ABI, SHALLOW_FRAMES, SpecKey};
 pub use file::texture::VtexFile;
 pub use records::curve::{
     CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CurveHeader, CurveLattice,
@@ -83,7 +83,7 @@ pub use records::layer::LayerRecord;
 pub use records::meta::{
     AddressMode, DistanceOutline, Grid, MAX_GRID_SIDE, MAX_TEXELS_PER_CELL, Meta, SamplerSettings,
 };
-pub use records::paint::{PAINT_LINEAR, PAINT_RADIAL, PAINT_SOLID, PaintRecord};
+pub use records::paint::{PAINT_SOLID, PaintRecord};
 pub use records::prov::{
     EMBEDDED_SOURCE, Finding, MsdfError, Preparation, Provenance, ShapeReport, Warning, WarningCode,
 };

@@ -219,8 +219,8 @@ fn trusted_spirv<'a>(
     if trust == Trust::Regenerate {
         return None;
     }
-    if *key != file.spec {
-        notices.push("load options change the spec key: using our own shader".to_owned());
+    if vtex_shaders::kernel_key(key) != vtex_shaders::kernel_key(&file.spec) {
+        notices.push("load options need another shader: using our own".to_owned());
         return None;
     }
     Some(&blob.batch_spirv)

@@ -70,8 +70,8 @@ impl GpuVtex {
         options: &LoadOptions,
     ) -> Result<Self, RuntimeError> {
         let words = vtex_shaders::pack(file, &options.pack);
-        // Not `file.spec`: options such as another address mode need other code.
-        let key = vtex_shaders::spec_key(file, &options.pack);
+        // Not `file.spec`: options such as the filter mode need other code.
+        let key = vtex_shaders::kernel_key(&vtex_shaders::spec_key(file, &options.pack));
         checked(device, "texture", || {
             let bytes = bytemuck::cast_slice(&words);
             let storage = BufferUsages::STORAGE;
@@ -124,7 +124,8 @@ impl GpuVtex {
         &self.buffer
     }
 
-    /// Decides the text of [`GpuVtex::wgsl_fragment`]: cache pipelines by it.
+    /// Decides the text of [`GpuVtex::wgsl_fragment`]: cache pipelines by it. It is the
+    /// [`kernel_key`](vtex_shaders::kernel_key) of what the texture holds and the options ask for.
     pub fn key(&self) -> &SpecKey {
         &self.key
     }

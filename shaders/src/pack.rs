@@ -6,7 +6,7 @@ use vtex_format::{
     SamplerSettings, SpecKey, VtexFile,
 };
 
-use crate::cpu::{color, to_f32};
+use crate::cpu::{color, to_f32, to_u32};
 use crate::layout::{FilterMode, OFFSET_END, gradient, header, image, paint};
 use crate::refine::refine;
 use crate::spec::spec_key;
@@ -50,8 +50,7 @@ impl PackOptions {
 /// one that the format's validator finds nothing in; another gives a wrong picture, never a panic.
 pub fn pack(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
     let key = spec_key(file, options);
-    let distances = key.features & (Features::RAMPS | Features::OUTLINE) != 0;
-    let refined = refine(file, distances, options.halvings);
+    let refined = refine(file, options.filter, options.halvings);
     let mut words = header_words(file, options, &key);
     let fine = |axis: usize| to_f32(file.meta.grid.size_cells[axis] << refined.depth);
     let per_cell = to_f32(1 << refined.depth);
@@ -105,7 +104,7 @@ fn header_words(file: &VtexFile, options: &PackOptions, key: &SpecKey) -> Vec<u3
         );
     }
     put(header::TEXELS_PER_CELL, &[grid.texels_per_cell]);
-    if let Some(canvas) = file.images.first() {
+    if let (Some(canvas), true) = (file.images.first(), key.features & Features::MIPS != 0) {
         let texels = to_f32(canvas.size[0]) / scale[0];
         put(header::MIP_TEXELS_PER_CELL, &[texels.to_bits()]);
     }
@@ -134,24 +133,33 @@ fn paint_section(words: &mut Vec<u32>, file: &VtexFile) {
         let stored = Gradient::of(record, &file.gradients);
         paints.extend(match stored {
             Some(stored) => {
-                let four = [word_index(gradients_first + gradients.len()), 0, 0, VARIES];
+                let first = word_index(gradients_first + gradients.len());
                 gradient_words(&mut gradients, &stored);
-                [four, four].concat()
+                [first, paint::GRADIENT, 0, 0]
             }
-            None => solid_words(record).to_vec(),
+            None => solid_words(record),
         });
     }
     section(words, header::PAINTS, &paints);
     words.extend(gradients);
 }
 
-/// Alpha of a paint that is no single colour: -1.
-const VARIES: u32 = (-1.0_f32).to_bits();
-
-fn solid_words(paint: &PaintRecord) -> [u32; 8] {
+fn solid_words(paint: &PaintRecord) -> [u32; 4] {
     let [r, g, b, a] = paint.color;
-    let rgb = color::decode([r, g, b]).map(|c| c * a);
-    [rgb[0], rgb[1], rgb[2], a, r, g, b, a].map(f32::to_bits)
+    let linear = color::decode([r, g, b]).map(|c| c * a);
+    let [linear, straight] =
+        [[linear[0], linear[1], linear[2], a], paint.color].map(|c| c.map(share));
+    [
+        linear[0] | linear[1] << 16,
+        linear[2] | linear[3] << 16,
+        straight[0] | straight[1] << 16,
+        straight[2] | straight[3] << 16,
+    ]
+}
+
+/// Of [`paint::UNIT`].
+fn share(channel: f32) -> u32 {
+    to_u32((channel.clamp(0.0, 1.0) * to_f32(paint::UNIT)).round())
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "evaluators work in f32")]

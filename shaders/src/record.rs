@@ -1,4 +1,4 @@
-//! Winding and distance from a curve record as a file stores it (docs/format.md 2.13). Tests compare
+//! Winding from a curve record as a file stores it (docs/format.md 2.13). Tests compare
 //! evaluators with it, which read items made from records.
 //!
 //! `record` below starts at the first word of what [`vtex_format::CurveHeader`] describes and may
@@ -9,8 +9,7 @@ use vtex_format::{
     CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, MAX_CURVE_SEGMENTS, MAX_CURVE_STEPS,
 };
 
-use crate::cpu::plane::{Vec2, cross, dot, point, sub};
-use crate::layout::curve::NEWTON_STEPS;
+use crate::cpu::plane::{Vec2, cross, point, sub};
 
 /// Where the parts of a record lie.
 struct Parts<'a> {
@@ -117,86 +116,4 @@ fn fills(winding: i32, even_odd: bool) -> bool {
     } else {
         winding != 0
     }
-}
-
-/// Signed distance from `p` to the outline in units, inside positive, at most `reach` either way.
-pub fn distance(record: &[u32], p: Vec2, reach: f32) -> f32 {
-    let parts = parts(record);
-    let mut winding = left_winding(&parts, p);
-    let mut nearest = reach * reach;
-    for (i, line) in parts.lines.iter().enumerate() {
-        let a = sub(point(line[0]), p);
-        let b = sub(point(line[1]), p);
-        nearest = nearest.min(line_distance_squared(a, b));
-        if line_crosses_left(a, b) {
-            winding += direction(i, parts.down_lines);
-        }
-    }
-    for (i, quad) in parts.quads.iter().enumerate() {
-        let a = sub(point(quad[0]), p);
-        let c = sub(point(quad[1]), p);
-        let b = sub(point(quad[2]), p);
-        // Monotone, so its ends span its box.
-        if box_distance_squared(a, b) < nearest {
-            nearest = nearest.min(quad_distance_squared(a, c, b));
-        }
-        if quad_crosses_left(a, c, b) {
-            winding += direction(i, parts.down_quads);
-        }
-    }
-    let length = nearest.sqrt();
-    if fills(winding, parts.even_odd) {
-        length
-    } else {
-        -length
-    }
-}
-
-fn box_distance_squared(a: Vec2, b: Vec2) -> f32 {
-    let axis = |i: usize| a[i].min(b[i]).max(-a[i].max(b[i])).max(0.0);
-    dot([axis(0), axis(1)], [axis(0), axis(1)])
-}
-
-/// Squared distance from the origin.
-fn line_distance_squared(a: Vec2, b: Vec2) -> f32 {
-    let e = sub(b, a);
-    // Different lattice points lie at least one unit apart.
-    let t = (-dot(a, e) / dot(e, e).max(1.0)).clamp(0.0, 1.0);
-    let v = [a[0] + e[0] * t, a[1] + e[1] * t];
-    dot(v, v)
-}
-
-/// Squared distance from the origin to `a + 2 b1 t + c2 t^2`, by Newton's method on the squared
-/// distance. Whatever it ends at is a point of the curve, so errors only make the result larger.
-fn quad_distance_squared(a: Vec2, c: Vec2, b: Vec2) -> f32 {
-    let b1 = sub(c, a);
-    let c2 = sub(sub(b, c), b1);
-    let chord = sub(b, a);
-    let mut t = (-dot(a, chord) / dot(chord, chord).max(1.0)).clamp(0.0, 1.0);
-    for _ in 0..NEWTON_STEPS {
-        let (v, half_slope) = quad_at(a, b1, c2, t);
-        let first = dot(v, half_slope);
-        let slope_squared = dot(half_slope, half_slope);
-        // Half of B'' is c2; where the squared distance is not convex, step as Gauss and Newton.
-        let second = 2.0 * slope_squared + dot(v, c2);
-        let convex = if second > slope_squared {
-            second
-        } else {
-            2.0 * slope_squared
-        };
-        // The bound keeps the quotient finite where the curve stands still.
-        t = (t - first / convex.max(1e-6)).clamp(0.0, 1.0);
-    }
-    let (v, _) = quad_at(a, b1, c2, t);
-    dot(v, v)
-}
-
-/// Point and half the derivative.
-fn quad_at(a: Vec2, b1: Vec2, c2: Vec2, t: f32) -> (Vec2, Vec2) {
-    let half_slope = [b1[0] + c2[0] * t, b1[1] + c2[1] * t];
-    let v = [
-        a[0] + t * (b1[0] + half_slope[0]),
-        a[1] + t * (b1[1] + half_slope[1]),
-    ];
-    (v, half_slope)
 }

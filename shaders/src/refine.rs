@@ -11,12 +11,13 @@ mod group;
 mod items;
 mod list;
 mod outline;
+mod room;
 
 use std::collections::BTreeMap;
 
 use vtex_format::{CellWord, VtexFile};
 
-use crate::layout::cell;
+use crate::layout::{FilterMode, cell};
 use items::Order;
 use list::List;
 use outline::Region;
@@ -26,28 +27,28 @@ use outline::Region;
 pub(crate) struct Refined {
     /// How often the file's cells are halved.
     pub(crate) depth: u32,
-    /// One word a fine cell, row by row: the tags of [`cell`], a list's payload counts items.
+    /// One word a fine cell, row by row, as [`cell`] says.
     pub(crate) words: Vec<u32>,
     /// All lists' items.
     pub(crate) items: Vec<[u32; 4]>,
 }
 
-/// `distances` says that lookups measure how far edges are, not only on which side; `halvings` as in
-/// [`crate::PackOptions`].
-pub(crate) fn refine(file: &VtexFile, distances: bool, halvings: Option<u32>) -> Refined {
+/// `halvings` as in [`crate::PackOptions`].
+pub(crate) fn refine(file: &VtexFile, filter: FilterMode, halvings: Option<u32>) -> Refined {
     let depth = match halvings {
         Some(halvings) => halvings.min(depth::MAX_DEPTH),
-        None => depth::choose(file, distances),
+        None => depth::choose(file, filter),
     };
     let [columns, rows] = file.meta.grid.size_cells.map(|count| count as usize);
+    let whole = whole_cell(file);
     let mut build = Build {
-        distances,
+        whole,
+        filter,
         pitch: columns << depth,
         words: vec![0; (columns << depth) * (rows << depth)],
         items: Vec::new(),
         shared: BTreeMap::new(),
     };
-    let whole = whole_cell(file, distances);
     for (index, &word) in file.cells.iter().enumerate() {
         let at = [(index % columns) << depth, (index / columns) << depth];
         match CellWord::decode(word) {
@@ -62,6 +63,9 @@ pub(crate) fn refine(file: &VtexFile, distances: bool, halvings: Option<u32>) ->
             _ => {}
         }
     }
+    if filter == FilterMode::Footprint {
+        room::write(&mut build.words, build.pitch);
+    }
     Refined {
         depth,
         words: build.words,
@@ -70,14 +74,24 @@ pub(crate) fn refine(file: &VtexFile, distances: bool, halvings: Option<u32>) ->
 }
 
 /// A cell of the file in units of its box.
-fn whole_cell(file: &VtexFile, distances: bool) -> Region {
+fn whole_cell(file: &VtexFile) -> Region {
     let lattice = file.meta.curve_lattice;
     let margin = f64::from(lattice.map_or(0, |lattice| lattice.margin_units));
     let units = f64::from(lattice.map_or(1, |lattice| lattice.units_per_cell));
     Region {
         x: [margin, margin + units],
         y: [margin, margin + units],
-        reach: if distances { margin } else { 0.0 },
+    }
+}
+
+/// What the list of a fine cell serves, where `whole` is a cell of the file.
+fn reached(fine: &Region, whole: &Region, filter: FilterMode) -> Region {
+    if filter == FilterMode::Footprint {
+        let side = fine.x[1] - fine.x[0];
+        fine.grown(side * f64::from(cell::OVERLAP) / 16.0)
+            .meet(whole)
+    } else {
+        *fine
     }
 }
 
@@ -87,8 +101,9 @@ fn list_of(file: &VtexFile, offset_words: u32) -> List {
 }
 
 struct Build {
-    /// As of [`refine`].
-    distances: bool,
+    /// Of a cell of the file.
+    whole: Region,
+    filter: FilterMode,
     pitch: usize,
     words: Vec<u32>,
     items: Vec<[u32; 4]>,
@@ -110,7 +125,12 @@ impl Build {
             let half = 1 << (level - 1);
             let corners = [[x, y], [x + half, y], [x, y + half], [x + half, y + half]];
             for (quarter, corner) in region.quarters().iter().zip(corners) {
-                self.list(&list.within(quarter), quarter, corner, level - 1);
+                self.list(
+                    &list.within(&reached(quarter, &self.whole, self.filter)),
+                    quarter,
+                    corner,
+                    level - 1,
+                );
             }
             return;
         }
@@ -119,8 +139,8 @@ impl Build {
         } else if let Some(paint) = list.solid() {
             cell::SOLID << cell::TAG_SHIFT | paint
         } else {
-            let (tag, order) = if list.needs_frames(self.distances) {
-                (cell::SCOPES, Order::BackToFront)
+            let (tag, order) = if list.has_groups() {
+                (cell::GROUPS, Order::BackToFront)
             } else {
                 (cell::LIST, Order::FrontToBack)
             };

@@ -3,10 +3,12 @@
 use vtex_format::{
     AddressMode, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CellWord, CurveHeader, CurveLattice,
     DistanceOutline, Entry, EntryKind, Features, Gradient, GradientShape, GradientStop, Grid,
-    Image, Meta, PaintRecord, SamplerSettings, SpecKey, Spread, VtexFile,
+    Image, MAX_FRAMES, Meta, PaintRecord, SHALLOW_FRAMES, SamplerSettings, SpecKey, Spread,
+    VtexFile,
 };
 
 use crate::random::Random;
+use crate::scopes::{self, Wants};
 
 const DISTANCE_RANGE_TEXELS: f32 = 4.0;
 const PAINTS: u32 = 12;
@@ -14,6 +16,12 @@ const PAINTS: u32 = 12;
 const SOLIDS: u32 = 4;
 const TILES: u32 = 40;
 const RECORDS: u32 = 40;
+/// Rectangles, sizes and least alphas of patches. The last one is opaque.
+const PATCHES: [([f32; 4], [u32; 2], u8); 3] = [
+    ([0.1, 0.2, 0.75, 0.9], [17, 30], 0),
+    ([0.4, -0.3, 1.4, 0.6], [64, 64], 0),
+    ([0.2, 0.3, 0.7, 1.2], [20, 12], 255),
+];
 
 /// A texture made of what `features` (bits of [`Features`]) names, else random from `seed`.
 ///
@@ -49,13 +57,13 @@ pub fn random_texture(seed: u64, features: u32) -> VtexFile {
     if has(Features::MIPS) {
         file.spec.features |= Features::MIPS;
         file.images
-            .push(random_image(r, [0.0, 0.0, 1.0, 1.0], [61, 33]));
+            .push(random_image(r, [0.0, 0.0, 1.0, 1.0], [61, 33], 0));
     }
     if has(Features::IMAGES) {
-        file.images
-            .push(random_image(r, [0.1, 0.2, 0.75, 0.9], [17, 30]));
-        file.images
-            .push(random_image(r, [0.4, -0.3, 1.4, 0.6], [64, 64]));
+        for (rect_uv, size, least_alpha) in PATCHES {
+            file.images
+                .push(random_image(r, rect_uv, size, least_alpha));
+        }
     }
     if has(Features::CURVES) {
         file.meta.curve_lattice = CurveLattice::new(r.between(0.1, 1.0));
@@ -95,7 +103,10 @@ fn random_grid(r: &mut Random) -> Grid {
 fn random_settings(r: &mut Random, features: u32) -> SamplerSettings {
     let has = |feature| features & feature != 0;
     let mut settings = SamplerSettings {
-        address: [(); 2].map(|()| AddressMode::ALL[r.below(4) as usize]),
+        address: [(); 2].map(|()| match has(Features::MAPPING) {
+            true => AddressMode::ALL[r.below(4) as usize],
+            false => AddressMode::Clamp,
+        }),
         smoothing: r.between(0.02, 0.3),
         mask: has(Features::MASK),
         outline: has(Features::OUTLINE).then(|| DistanceOutline {
@@ -108,7 +119,7 @@ fn random_settings(r: &mut Random, features: u32) -> SamplerSettings {
         }),
         ..SamplerSettings::default()
     };
-    if has(Features::TEXTURE_MATRIX) {
+    if has(Features::MAPPING) && r.below(2) == 0 {
         settings.texture_matrix = [(); 6].map(|()| r.between(-1.5, 1.5));
     }
     settings
@@ -124,20 +135,27 @@ fn random_paint(r: &mut Random, translucent: bool) -> PaintRecord {
 }
 
 /// Of any shape and spread, of one stop or a hundred; opaque unless `translucent`.
+///
+/// Not so steep that a rounding shows: no two stops lie much closer together than others, unless at
+/// one offset, and `t` does not grow without bound.
+#[expect(clippy::cast_precision_loss, reason = "a hundred stops")]
 fn random_gradient(r: &mut Random, translucent: bool) -> Gradient {
     let shape = match r.below(3) {
         0 => GradientShape::Linear {
             t_from_uv: [(); 3].map(|()| r.between(-3.0, 3.0)),
         },
-        kind => GradientShape::Radial {
-            circle_from_uv: [(); 6].map(|()| r.between(-2.0, 2.0)),
-            distance: [0.0, r.between(0.0, if translucent { 2.0 } else { 0.6 })][kind as usize - 1],
-            focal_radius: [0.0, r.between(0.0, 0.4)][r.below(2) as usize],
-        },
+        kind => {
+            let [distance, focal_radius] = random_circles(r, kind == 2, translucent);
+            GradientShape::Radial {
+                circle_from_uv: [(); 6].map(|()| r.between(-2.0, 2.0)),
+                distance,
+                focal_radius,
+            }
+        }
     };
     let count = [1, 2, 2, 3, 4, 5, 8, 9, 17, 100][r.below(10) as usize];
-    let mut offsets: Vec<f32> = (0..count).map(|_| r.unit()).collect();
-    offsets.sort_by(f32::total_cmp);
+    let offset = |i: u32| (i as f32 + r.between(0.25, 0.75)) / count as f32;
+    let mut offsets: Vec<f32> = (0..count).map(offset).collect();
     if count > 4 {
         offsets[2] = offsets[1];
     }
@@ -150,6 +168,19 @@ fn random_gradient(r: &mut Random, translucent: bool) -> Gradient {
         shape,
         spread: [Spread::Pad, Spread::Reflect, Spread::Repeat][r.below(3) as usize],
         stops,
+    }
+}
+
+/// Distance and focal radius, not near those of which `t` is the quotient of two small numbers.
+fn random_circles(r: &mut Random, apart: bool, translucent: bool) -> [f32; 2] {
+    loop {
+        let far = if translucent { 2.0 } else { 0.6 };
+        let distance = if apart { r.between(0.0, far) } else { 0.0 };
+        let focal_radius = [0.0, r.between(0.0, 0.4)][r.below(2) as usize];
+        let rest = 1.0 - focal_radius;
+        if (distance * distance - rest * rest).abs() > 0.1 {
+            return [distance, focal_radius];
+        }
     }
 }
 
@@ -243,11 +274,11 @@ fn push_random_record(r: &mut Random, file: &mut VtexFile) -> u32 {
 }
 
 /// Premultiplied noise with a full chain of its own noise: levels need not be averages here.
-fn random_image(r: &mut Random, rect_uv: [f32; 4], size: [u32; 2]) -> Image {
+fn random_image(r: &mut Random, rect_uv: [f32; 4], size: [u32; 2], least_alpha: u8) -> Image {
     let mips = (0..Image::level_count(size)).map(|level| {
         let [width, height] = Image::level_size(size, level);
         let texel = |_| {
-            let alpha = random_byte(r);
+            let alpha = random_byte(r).max(least_alpha);
             let mut color = || random_byte(r).min(alpha);
             [color(), color(), color(), alpha]
         };
@@ -273,17 +304,52 @@ fn random_cell(r: &mut Random, file: &mut VtexFile, features: u32, records: &[u3
         _ => {}
     }
     let offset_words = u32::try_from(file.entries.len()).expect("a small file");
+    let scoped = features & (Features::CLIPS | Features::GROUPS) != 0;
+    let entries = if scoped && r.below(4) > 0 {
+        scoped_list(r, file, features, records)
+    } else {
+        plain_list(r, file, features, records)
+    };
+    for entry in entries {
+        file.entries.extend(entry.encode().expect("small indices"));
+    }
+    CellWord::List { offset_words }
+}
+
+fn plain_list(r: &mut Random, file: &VtexFile, features: u32, records: &[u32]) -> Vec<Entry> {
     // Some lists are long: they test the loops' bounds.
     let length = if r.below(100) == 0 {
         60
     } else {
         1 + r.below(7)
     };
-    for i in 1..=length {
-        let entry = random_entry(r, file, features, records, i == length);
-        file.entries.extend(entry.encode().expect("small indices"));
+    (1..=length)
+        .map(|i| random_entry(r, file, features, records, i == length))
+        .collect()
+}
+
+/// A tree of clips and groups, in which entries of any kind draw.
+fn scoped_list(r: &mut Random, file: &VtexFile, features: u32, records: &[u32]) -> Vec<Entry> {
+    let wants = Wants {
+        clips: features & Features::CLIPS != 0,
+        groups: features & Features::GROUPS != 0,
+        blends: features & Features::BLENDS != 0,
+    };
+    let frames = if features & Features::DEEP_GROUPS != 0 {
+        MAX_FRAMES
+    } else {
+        SHALLOW_FRAMES
+    };
+    let mut entries = scopes::random_list(r, wants, records, frames);
+    for entry in &mut entries {
+        if entry.kind.draws() {
+            *entry = random_entry(r, file, features, records, false);
+        }
     }
-    CellWord::List { offset_words }
+    if let Some(last) = entries.last_mut() {
+        last.last = true;
+    }
+    entries
 }
 
 fn random_entry(
@@ -294,10 +360,11 @@ fn random_entry(
     last: bool,
 ) -> Entry {
     let has = |feature| features & feature != 0;
+    let scoped = has(Features::CLIPS) || has(Features::GROUPS);
     let kinds = [
         (
             EntryKind::Full,
-            !has(Features::MSDF) && !has(Features::CURVES) || last,
+            !has(Features::MSDF) && !has(Features::CURVES) || last || scoped && r.below(4) == 0,
         ),
         (EntryKind::Image, has(Features::IMAGES)),
         (EntryKind::Msdf, has(Features::MSDF)),
@@ -311,16 +378,21 @@ fn random_entry(
         .map(|(kind, _)| *kind)
         .collect();
     let kind = possible[r.below(u32::try_from(possible.len()).expect("six")) as usize];
-    let patches = u32::try_from(file.images.len()).expect("three");
+    let patches = u32::try_from(file.images.len()).expect("four");
     let first_patch = u32::from(has(Features::MIPS));
     let index = match kind {
         EntryKind::Image => first_patch + r.below(patches - first_patch),
         _ => r.below(PAINTS),
     };
+    let opaque = match kind {
+        // The last patch is opaque; a file need not say so.
+        EntryKind::Image => index + 1 == patches && r.below(2) == 0,
+        _ => file.paints[index as usize].is_opaque(),
+    };
     Entry {
         kind,
         last,
-        opaque: kind != EntryKind::Image && file.paints[index as usize].is_opaque(),
+        opaque,
         index,
         data: match kind {
             EntryKind::Msdf => r.below(TILES),

@@ -8,17 +8,20 @@ mod reference;
 mod tree;
 
 use vtex_format::{
-    CellWord, CurveHeader, CurveLattice, Grid, Meta, PaintRecord, SpecKey, VtexFile, list_frames,
+    CellWord, CurveHeader, CurveLattice, Entry, Grid, MAX_FRAMES, Meta, PaintRecord, SpecKey,
+    VtexFile, list_frames,
 };
 
 use crate::random::Random;
 pub use reference::Lens;
 pub use tree::{Clip, Group, Mask, Node, Part, Scope, Wants};
 
-/// Lattice steps along a cell: the unit of ramps.
-pub const TEXELS_PER_CELL: u32 = 4;
-/// How far records reach, in cells.
-pub const REACH_CELLS: f32 = 0.25;
+/// Lattice steps along a cell.
+const TEXELS_PER_CELL: u32 = 4;
+/// Records that a random tree names.
+const RECORDS: usize = tree::COUNT as usize;
+/// How far the boxes of records go beyond their cells, in cells.
+const MARGIN_CELLS: f32 = 0.25;
 
 /// A row of cells, each with a tree of its own.
 #[derive(Clone, Debug)]
@@ -40,12 +43,7 @@ impl Drawing {
         let mut r = Random::new(seed);
         let records = (0..8).map(|_| random_record(&mut r)).collect();
         let paints = (0..8).map(|_| random_paint(&mut r)).collect();
-        let tree = |_| loop {
-            let nodes = tree::random_nodes(&mut r, wants, 4);
-            if list_frames(&encode::entries(&nodes, &[0; 8])).is_ok() {
-                return nodes;
-            }
-        };
+        let tree = |_| random_tree(&mut r, wants, MAX_FRAMES);
         Self {
             cells: (0..cells).map(tree).collect(),
             paints,
@@ -96,12 +94,38 @@ impl Drawing {
     }
 }
 
+/// A tree that takes few enough frames.
+fn random_tree(r: &mut Random, wants: Wants, frames: u32) -> Vec<Node> {
+    loop {
+        let nodes = tree::random_nodes(r, wants, 4);
+        let entries = encode::entries(&nodes, &[0; RECORDS]);
+        if list_frames(&entries).is_ok_and(|taken| taken <= frames) {
+            return nodes;
+        }
+    }
+}
+
+/// The list of a random tree, none of its entries marked last or opaque; tests name some of
+/// `records`, the places of curve records, of which there may be none where no clip is wanted.
+pub(crate) fn random_list(
+    r: &mut Random,
+    wants: Wants,
+    records: &[u32],
+    frames: u32,
+) -> Vec<Entry> {
+    let mut places = [0; RECORDS];
+    if let Some(count) = u32::try_from(records.len()).ok().filter(|&count| count > 0) {
+        places = places.map(|_| records[r.below(count) as usize]);
+    }
+    encode::entries(&random_tree(r, wants, frames), &places)
+}
+
 /// The lattice of all records.
 ///
 /// # Panics
-/// Never: the reach is in range.
+/// Never: the margin is in range.
 pub fn lattice() -> CurveLattice {
-    CurveLattice::new(REACH_CELLS).expect("in range")
+    CurveLattice::new(MARGIN_CELLS).expect("in range")
 }
 
 fn random_paint(r: &mut Random) -> [f32; 4] {

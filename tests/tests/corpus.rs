@@ -16,7 +16,7 @@ use vtex_format::{COVERAGE_IMAGE, EMBEDDED_SOURCE, VtexFile, Warning, WarningCod
 use vtex_shaders::{cpu, pack};
 use vtex_testing::{Corpus, slow_only};
 use vtex_tests::fonts;
-use vtex_truth::picture::{Picture, Shot, View, fit_size};
+use vtex_truth::picture::{POINTS, Picture, Shot, View, fit_size};
 use vtex_truth::reference::{Edges, Reference};
 use vtex_truth::texture::{FilterMode, canvas_options};
 
@@ -109,6 +109,7 @@ fn look(svg: &[u8]) -> Result<(), String> {
         view: View::WHOLE,
         size_px,
         spp: SPP,
+        region_uv: POINTS,
     };
     let words = pack(&file, &canvas_options(FilterMode::Point));
     let sampler = cpu::Sampler::new(&words);

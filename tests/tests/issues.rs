@@ -55,6 +55,7 @@ fn psnr_at_1x(svg: &[u8], file: &VtexFile) -> f64 {
     let terms = Terms {
         longer_px: 512,
         spp: 16,
+        region_uv: vtex_truth::picture::POINTS,
         windows: vtex_truth::comparison::WINDOWS,
         mask: false,
     };

@@ -4,29 +4,28 @@
 use std::collections::BTreeMap;
 
 use naga::{Expression, Literal, Module, TypeInner};
-use vtex_format::{AddressMode, Features, SHADER_ABI, SpecKey};
-use vtex_shaders::layout::{BATCH_QUERY, CONSTANTS, RecordLayout};
+use vtex_format::{Features, SpecKey};
+use vtex_shaders::layout::{BATCH_QUERY, CONSTANTS, RecordLayout, rows};
 use vtex_shaders::{BindingSlot, batch_kernel, scene_evaluator};
 
 fn key(features: u32) -> SpecKey {
-    SpecKey {
-        abi: SHADER_ABI,
-        features,
-        address_u: AddressMode::Repeat,
-        address_v: AddressMode::Mirror,
-        texels_per_cell: 8,
-        max_entries: 5,
-        frames: 0,
-        reserved: 0,
-    }
+    SpecKey { features }
 }
 
-/// Named `u32` constants of a module that are not of its key.
+/// Numbers that are no integers; tests of parity hold them against Rust's.
+const FLOATS: [&str; 3] = [
+    "VTEX_ROWS_LEAST",
+    "VTEX_PICTURE_FAR",
+    "VTEX_PICTURE_OVERLAP",
+];
+
+/// Named constants of a module that are not of its key; all but those of [`FLOATS`] are `u32`.
 fn constants(module: &Module) -> BTreeMap<&str, u32> {
     let named = module.constants.iter().filter_map(|(_, constant)| {
         let value = &module.global_expressions[constant.init];
         match (constant.name.as_deref()?, value) {
             (name, Expression::Literal(Literal::U32(value))) => Some((name, *value)),
+            (name, _) if FLOATS.contains(&name) => None,
             (name, other) => panic!("{name} is not a plain u32: {other:?}"),
         }
     });
@@ -35,9 +34,13 @@ fn constants(module: &Module) -> BTreeMap<&str, u32> {
         .collect()
 }
 
-fn check_constants(module: &Module, variant: &str) {
-    let expected: BTreeMap<&str, u32> = CONSTANTS.iter().copied().collect();
-    assert_eq!(constants(module), expected, "{variant}");
+fn check_constants(module: &Module, features: u32, text: &str) {
+    let mut expected: BTreeMap<&str, u32> = CONSTANTS.iter().copied().collect();
+    // The one constant that depends on the variant: a mask of all samples.
+    let footprint = features & Features::FOOTPRINT != 0;
+    let samples = if footprint { rows::EVERY } else { 1 };
+    expected.insert("VTEX_SAMPLES_EVERY", samples);
+    assert_eq!(constants(module), expected, "{text} {features:#b}");
 }
 
 fn check_record(module: &Module, record: &RecordLayout) {
@@ -62,11 +65,11 @@ fn every_variant_has_the_constants_and_records_of_rust() {
     for features in (0..=Features::ALL).step_by(13).chain([Features::ALL]) {
         let text = batch_kernel(&key(features));
         let module = naga::front::wgsl::parse_str(&text).expect("WGSL");
-        check_constants(&module, &format!("features {features:#b}"));
+        check_constants(&module, features, "batch kernel");
         check_record(&module, &BATCH_QUERY);
         let text = scene_evaluator(features, BindingSlot::default());
         let module = naga::front::wgsl::parse_str(&text).expect("WGSL");
-        check_constants(&module, &format!("scene features {features:#b}"));
+        check_constants(&module, features, "scene");
     }
 }
 

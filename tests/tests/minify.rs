@@ -172,8 +172,10 @@ fn moving_by_part_of_a_pixel_keeps_the_mean() {
             .collect();
         let least = means.iter().copied().fold(f64::INFINITY, f64::min);
         let most = means.iter().copied().fold(0.0, f64::max);
-        // Pictures of few pixels: what trilinear filtering of a coarse level ripples by.
-        let bound = 0.001 * f64::from(texels) * most;
+        // Pictures of few pixels: what trilinear filtering of a coarse level ripples by. Measured: 1.1%
+        // at 6.5 texels. Lookups of the level of the footprint's own width would ripple by 0.6% there
+        // and by 1.9% at 13 texels, where these do by 1.3%.
+        let bound = 0.0018 * f64::from(texels) * most;
         assert!(most - least < bound, "{texels}: {least} to {most}");
     }
 }

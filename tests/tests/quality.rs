@@ -32,6 +32,7 @@ fn psnr_db(reference: &Reference, file: &VtexFile, spp: u32, zoom: f64) -> f64 {
     let terms = Terms {
         longer_px: 128,
         spp,
+        region_uv: vtex_truth::picture::POINTS,
         windows: vtex_truth::comparison::WINDOWS,
         mask: false,
     };

@@ -27,8 +27,7 @@ pub(crate) fn curve_lattice(
     if !placed.iter().any(Placed::is_curves) {
         return None;
     }
-    // The margin of a record is at most one cell, so wider ramps are cut off. Mips answer lookups
-    // with such ramps, unless mip 0 is tiny.
+    // The margin of a record is at most one cell. No lookup looks beyond the cell itself.
     let margin_cells = (scales.distances.margin / lattice.cell_steps()).min(1.0);
     let finest = CurveLattice::new(to_f32(margin_cells))?;
     // Finer units than anyone can see cost bytes: the low bits of coordinates are noise, which does

@@ -47,8 +47,8 @@ impl Lattice {
     /// The lattice of a drawing whose shapes are all curves. There are no texels then: `msdf_size`
     /// only sets the length of a step.
     pub(crate) fn for_curves(canvas_size: [f64; 2], msdf_size: u32, mip0_size: u32) -> Self {
-        // A record has a margin of at most one cell, which must hold a ramp of half a texel of mip
-        // 0: so cells are no smaller than those texels.
+        // A record has a margin of at most one cell, which is to hold half a texel of mip 0 (see
+        // `scales`): so cells are no smaller than those texels.
         let cells = CURVE_CELLS.min(mip0_size.max(1));
         Self::with_cells(canvas_size, msdf_size, cells)
     }

@@ -1,8 +1,11 @@
 //! The distances of a bake: how far an edge reaches, and how many pixels a step is.
 //!
-//! A lookup with a footprint sees an edge from some distance. Up to a footprint of one texel of mip
-//! 0 it is answered by cells, and the coverage of an edge then falls from 1 to 0 over a *ramp*
-//! around it. A cell must list every shape whose ramp reaches into it.
+//! Lookups in paper mode see the edge of an MSDF from some distance: its coverage falls from 1 to 0
+//! over a *ramp* around it, and the distance outline lies outside it. A cell must list every shape
+//! whose ramp or outline reaches into it. Other lookups see an edge where it is.
+//!
+//! The margin is at least half a texel of mip 0, as footprint mode needed before decision 0016.
+//! Curves could do with that of rounding alone.
 
 use crate::{config::BakeConfig, coverage::grid::Lattice, number::to_f32};
 
@@ -16,8 +19,7 @@ const ROUNDING_MARGIN: f64 = 0.01;
 /// Distances in lattice steps at which an edge concerns a cell.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Distances {
-    /// A cell lists a shape if an edge is within this distance of it: some filter mode then sees
-    /// partial coverage there.
+    /// A cell lists a shape if an edge is within this distance of it.
     pub(crate) margin: f64,
     /// An edge takes part in the tile of a cell if it is within this distance.
     pub(crate) reach: f64,
@@ -37,7 +39,7 @@ pub(crate) struct Scales {
 impl Scales {
     /// The distances of a bake on `lattice`.
     pub(crate) fn new(config: &BakeConfig, lattice: &Lattice) -> Self {
-        // Half the largest footprint that cells answer.
+        // Half a texel of mip 0, the largest footprint that cells answer.
         let ramp = 0.5 * lattice.longer_steps() / f64::from(config.mip0_size.max(1));
         let outline = f64::from(config.outline_texels.unwrap_or(0.0));
         // Half the range must hold the ramp and the distance outline: beyond it texels are clamped.

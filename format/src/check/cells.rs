@@ -35,15 +35,6 @@ impl Tables {
     }
 }
 
-/// What the key says of all lists that cells name.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Bounds {
-    /// Length of the longest.
-    pub(super) longest: u32,
-    /// Frames of the deepest.
-    pub(super) frames: u32,
-}
-
 /// Every entry has a meaning and names what exists, whether or not a cell lists it.
 pub(super) fn entries(file: &VtexFile, tables: &Tables, issues: &mut Issues) {
     let (pairs, rest) = file.entries.as_chunks::<2>();
@@ -121,7 +112,7 @@ fn curve_record(curves: &[u32], at: u32, entry_offset: u64, issues: &mut Issues)
 }
 
 /// Every cell names what exists, every list ends and its control entries fit together.
-pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> Bounds {
+pub(super) fn cells(file: &VtexFile, issues: &mut Issues) {
     let [columns, rows] = file.meta.grid.size_cells.map(u64::from);
     if file.cells.len() as u64 != columns * rows {
         let message = format_args!("{} words for {columns} x {rows} cells", file.cells.len());
@@ -129,8 +120,7 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> Bounds {
     }
     let lengths = list_lengths(&file.entries);
     let mut items = Items::of(file);
-    let controls = has_controls(&file.entries);
-    let mut bounds = Bounds::default();
+    let has_controls = has_controls(&file.entries);
     for (index, &word) in file.cells.iter().enumerate() {
         let offset = 4 * index as u64;
         let mut note = |kind, message: std::fmt::Arguments<'_>| {
@@ -151,8 +141,7 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> Bounds {
                 // An entry is two words: an odd offset names the second of them.
                 match length.filter(|_| offset_words % 2 == 0) {
                     None => note(issue::LIST_OFFSET, format_args!("word {offset_words}")),
-                    Some(Some(length)) => {
-                        bounds.longest = bounds.longest.max(*length);
+                    Some(Some(_)) => {
                         let first = offset_words as usize / 2;
                         let (count, is_new) = items.take(first);
                         if count > u64::from(MAX_LIST_ITEMS) {
@@ -160,9 +149,8 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> Bounds {
                         }
                         // Lists that overlap could take quadratic time. The bound on all items, one
                         // at least for each entry, keeps the work linear: past it none is parsed.
-                        if controls && is_new && items.total <= MAX_ITEMS {
-                            let frames = controls_of(&file.entries, first, issues);
-                            bounds.frames = bounds.frames.max(frames);
+                        if has_controls && is_new && items.total <= MAX_ITEMS {
+                            controls(&file.entries, first, issues);
                         }
                     }
                     Some(None) => note(
@@ -177,7 +165,6 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) -> Bounds {
         let message = format_args!("{} of at most {MAX_ITEMS} items", items.total);
         issues.add(issue::ALL_ITEMS, Tag::CELL, 0, message);
     }
-    bounds
 }
 
 /// Whether some entry draws nothing.
@@ -187,27 +174,24 @@ fn has_controls(entries: &[u32]) -> bool {
     entries.any(|entry| !entry.kind.draws())
 }
 
-/// The frames that the list whose first entry is at `first` needs; 0 where it breaks a rule.
-fn controls_of(entries: &[u32], first: usize, issues: &mut Issues) -> u32 {
+/// The control entries of the list whose first entry is at `first` fit together.
+fn controls(entries: &[u32], first: usize, issues: &mut Issues) {
     // A list with an entry that means nothing has its issue already.
     let Some(list) = list_entries(entries, first) else {
-        return 0;
+        return;
     };
-    match list_frames(&list) {
-        Ok(frames) => frames,
-        Err(fault) => {
-            let kind = match fault.kind {
-                ListFaultKind::Jump => issue::LIST_JUMP,
-                ListFaultKind::Bracket => issue::LIST_GROUP,
-                ListFaultKind::Mask => issue::LIST_MASK,
-                ListFaultKind::Blend => issue::LIST_BLEND,
-                ListFaultKind::Frames => issue::LIST_FRAMES,
-            };
-            let message = format_args!("entry {} of the list at {first}", fault.entry);
-            issues.add(kind, Tag::ENTR, 8 * (first + fault.entry) as u64, message);
-            0
-        }
-    }
+    let Err(fault) = list_frames(&list) else {
+        return;
+    };
+    let kind = match fault.kind {
+        ListFaultKind::Jump => issue::LIST_JUMP,
+        ListFaultKind::Bracket => issue::LIST_GROUP,
+        ListFaultKind::Mask => issue::LIST_MASK,
+        ListFaultKind::Blend => issue::LIST_BLEND,
+        ListFaultKind::Frames => issue::LIST_FRAMES,
+    };
+    let message = format_args!("entry {} of the list at {first}", fault.entry);
+    issues.add(kind, Tag::ENTR, 8 * (first + fault.entry) as u64, message);
 }
 
 /// Items of lists, by the entry a list starts with.

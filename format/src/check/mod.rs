@@ -45,8 +45,8 @@ pub(crate) fn content(file: &VtexFile, issues: &mut Issues) {
     images::tiles(file, issues);
     let tables = cells::Tables::of(file);
     cells::entries(file, &tables, issues);
-    let bounds = cells::cells(file, issues);
-    spec::spec(file, bounds, issues);
+    cells::cells(file, issues);
+    spec::spec(file, issues);
     if let Some(provenance) = &file.provenance {
         prov::provenance(provenance, file.shapes.len(), issues);
     }

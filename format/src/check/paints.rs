@@ -3,7 +3,7 @@
 use crate::container::issue::{self, IssueKind, Issues};
 use crate::container::tag::Tag;
 use crate::file::texture::VtexFile;
-use crate::records::gradient::{Gradient, GradientShape};
+use crate::records::gradient::Gradient;
 use crate::records::paint::{PAINT_SOLID, PaintRecord};
 
 /// Every paint is a colour in range or a gradient whose numbers are sound. The numbers of gradients
@@ -58,19 +58,7 @@ fn gradient(file: &VtexFile, paint: &PaintRecord, begins: u64, note: &mut Note<'
         note(issue::GRADIENT_PART, 8, message);
         return;
     };
-    let numbers = match gradient.shape {
-        GradientShape::Linear { t_from_uv } => t_from_uv.iter().all(|n| n.is_finite()),
-        GradientShape::Radial {
-            circle_from_uv,
-            distance,
-            focal_radius,
-        } => {
-            let lengths = [distance, focal_radius];
-            circle_from_uv.iter().all(|n| n.is_finite())
-                && lengths.iter().all(|n| n.is_finite() && *n >= 0.0)
-        }
-    };
-    if !numbers {
+    if !gradient.shape.is_sound() {
         let message = format_args!("{:?}", gradient.shape);
         note(issue::GRADIENT_NUMBER, 8, message);
     }

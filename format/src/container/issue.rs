@@ -169,15 +169,11 @@ issue_table! {
     CURVE_LATTICE_USE = 3023 Malformed "there is a curve lattice without curve records, or records without a lattice";
     OUTLINE_SOLID = 3024 Malformed "the distance outline's paint is not a single colour";
     SPEC_LENGTH = 3030 Malformed "SPEC is not 32 bytes";
-    SPEC_ABI = 3031 Unsupported "the spec key is of another ABI";
+    SPEC_ABI = 3031 Unsupported "the spec key is of a later ABI";
     SPEC_FEATURES = 3032 Unsupported "the spec key has unknown features";
     SPEC_FEATURE_MISSING = 3033 Malformed "the spec key lacks a feature that the content needs";
     SPEC_FEATURE_STRAY = 3034 Malformed "the spec key has a feature that META rules out";
-    SPEC_ADDRESS = 3035 Malformed "the spec key's address modes are not META's";
-    SPEC_TEXELS = 3036 Malformed "the spec key's texels per cell are not META's";
-    SPEC_ENTRIES = 3037 Malformed "the spec key's entry bound is not the length of the longest list";
     SPEC_RESERVED = 3038 Malformed "reserved words of the spec key are not zero";
-    SPEC_FRAMES = 3039 Malformed "the spec key's frames are not those of the deepest list";
     SHADER_LENGTH = 3040 Malformed "SHDR's lengths do not add up";
     SHADER_TEXT = 3041 Malformed "the shader's text is not UTF-8";
     SHADER_RESERVED = 3042 Malformed "reserved bytes or padding of SHDR are not zero";

@@ -115,17 +115,17 @@ pub enum AddressMode {
 impl AddressMode {
     /// All of them; each stands at its own number.
     pub const ALL: [Self; 4] = [Self::Clamp, Self::Repeat, Self::Mirror, Self::Border];
-
-    /// The mode of a number; `None` when there is none.
-    pub(crate) fn from_number(number: u32) -> Option<Self> {
-        Self::ALL.into_iter().find(|mode| *mode as u32 == number)
-    }
 }
 
 impl SamplerSettings {
     /// Whether the texture matrix is not the identity.
     pub fn is_transformed(&self) -> bool {
         self.texture_matrix != Self::default().texture_matrix
+    }
+
+    /// Whether lookups do more with a place in uv than to clamp it.
+    pub fn is_mapped(&self) -> bool {
+        self.is_transformed() || self.address != [AddressMode::Clamp; 2]
     }
 }
 

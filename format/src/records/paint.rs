@@ -2,20 +2,16 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::gradient::FLAG_OPAQUE;
+use super::gradient::{FLAG_OPAQUE, GradientShape};
 
 /// [`PaintRecord::kind`] of a single colour.
 pub const PAINT_SOLID: u32 = 0;
-/// [`PaintRecord::kind`] of a [`crate::Gradient`] along a line.
-pub const PAINT_LINEAR: u32 = 1;
-/// [`PaintRecord::kind`] of a [`crate::Gradient`] between circles.
-pub const PAINT_RADIAL: u32 = 2;
 
 /// One paint, 32 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct PaintRecord {
-    /// [`PAINT_SOLID`], [`PAINT_LINEAR`] or [`PAINT_RADIAL`].
+    /// [`PAINT_SOLID`], or the kind of a gradient, from which [`crate::Gradient::of`] makes its shape.
     pub kind: u32,
     /// Zero for a solid paint; of a gradient the [`crate::Spread`] in bits 1..0, and bit 2 where it
     /// is opaque everywhere.
@@ -40,7 +36,7 @@ impl PaintRecord {
 
     /// Whether it is a gradient.
     pub fn is_gradient(&self) -> bool {
-        matches!(self.kind, PAINT_LINEAR | PAINT_RADIAL)
+        GradientShape::has_kind(self.kind)
     }
 
     /// Whether nothing behind the paint shows, anywhere.

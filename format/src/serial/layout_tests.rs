@@ -16,9 +16,9 @@ use crate::records::image::ImageRecord;
 use crate::{
     AddressMode, BlendMode, CellWord, Codec, CurveHeader, CurveLattice, DistanceOutline, Entry,
     EntryKind, Finding, Gradient, GradientShape, GradientStop, Grid, LayerRecord, MaskKind, Meta,
-    MsdfError, PaintRecord, Preparation, Provenance, RecordParts, SamplerSettings, ShaderBlob,
-    ShapeRecord, ShapeReport, SpecKey, Spread, StoredOutline, StoredOutlines, StoredSegment,
-    Warning, WarningCode,
+    MsdfError, PaintRecord, Preparation, Provenance, RecordParts, SHADER_ABI, SamplerSettings,
+    ShaderBlob, ShapeRecord, ShapeReport, SpecKey, Spread, StoredOutline, StoredOutlines,
+    StoredSegment, Warning, WarningCode,
 };
 
 /// Lines of a record: its size, then offset, name and type of each field. Does not compile when a
@@ -60,8 +60,9 @@ fn the_wire_layout_changes_only_with_the_version() {
     let text = [offsets(), records(), enumerations(), values()].concat();
     Frozen {
         folder: &Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/layout"),
-        constant: "VERSION_MAJOR.VERSION_MINOR (format/src/container/layout.rs)",
-        version: &format!("{VERSION_MAJOR}.{VERSION_MINOR}"),
+        constant: "VERSION_MAJOR.VERSION_MINOR (format/src/container/layout.rs) with SHADER_ABI \
+                   (format/src/file/spec.rs), which is that of SPEC",
+        version: &format!("{VERSION_MAJOR}.{VERSION_MINOR}, ABI {SHADER_ABI}"),
         text: &text,
     }
     .check();
@@ -82,16 +83,6 @@ fn offsets() -> String {
 
 fn records() -> String {
     [
-        record!(SpecKey {
-            abi: u32,
-            features: u32,
-            address_u: AddressMode,
-            address_v: AddressMode,
-            texels_per_cell: u32,
-            max_entries: u32,
-            frames: u32,
-            reserved: u32,
-        }),
         record!(PaintRecord {
             kind: u32,
             flags: u32,
@@ -220,6 +211,8 @@ fn values() -> String {
         "META, outline",
         &canonical::encode(&meta(CurveLattice::new(0.25))),
     );
+    let features = 0x0403_0201;
+    add("SPEC", &words(&SpecKey { features }.encode()));
     add("PROV", &canonical::encode(&provenance()));
     add("SHDR", &shader().encode().expect("short"));
     let t_from_uv = [1.0, 2.0, 3.0];

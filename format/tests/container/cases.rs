@@ -4,8 +4,8 @@
 use std::collections::BTreeSet;
 
 use vtex_format::{
-    AddressMode, CurveLattice, DistanceOutline, Entry, EntryKind, Features, Grid, ISSUES, Image,
-    Issue, LayerRecord, Limits, MsdfError, ReadError, Tag, VtexFile, validate,
+    CurveLattice, DistanceOutline, Entry, EntryKind, Features, Grid, ISSUES, Image, Issue,
+    LayerRecord, Limits, MsdfError, ReadError, Tag, VtexFile, validate,
 };
 
 use crate::forge::{Forged, put_together, seal, take_apart};
@@ -112,8 +112,10 @@ const CONTENT_CASES: &[FileCase] = &[
         s[PROV].refill(&content);
     }),
     (3030, |s| cut(&mut s[SPEC], 4)),
-    (3035, |s| patch(&mut s[SPEC], 8, &[4])),
-    (3035, |s| patch(&mut s[SPEC], 15, &[1])),
+    (3031, |s| patch(&mut s[SPEC], 0, &[0])),
+    (3031, |s| patch(&mut s[SPEC], 0, &[3])),
+    (3038, |s| patch(&mut s[SPEC], 8, &[1])),
+    (3038, |s| patch(&mut s[SPEC], 31, &[1])),
     (3040, |s| s[SHDR].refill(&[0; 8])),
     (3040, |s| patch(&mut s[SHDR], 4, &u32::MAX.to_le_bytes())),
     (3040, |s| patch(&mut s[SHDR], 8, &u32::MAX.to_le_bytes())),
@@ -170,7 +172,6 @@ const VALUE_CASES: &[ValueCase] = &[
     (3022, |f| lattice(f).margin_units = u32::MAX),
     (3023, |f| f.meta.curve_lattice = None),
     (3023, |f| f.curves.clear()),
-    (3031, |f| f.spec.abi = 2),
     (3032, |f| f.spec.features |= 1 << 31),
     (3033, |f| f.spec.features &= !Features::MSDF),
     (3033, |f| f.spec.features &= !Features::TRANSLUCENT),
@@ -178,11 +179,6 @@ const VALUE_CASES: &[ValueCase] = &[
     (3033, |f| f.spec.features = 0),
     (3034, |f| f.spec.features |= Features::MASK),
     (3034, |f| f.meta.sampler.outline = None),
-    (3035, |f| f.spec.address_v = AddressMode::Clamp),
-    (3036, |f| f.spec.texels_per_cell = 3),
-    (3037, |f| f.spec.max_entries = 2),
-    (3037, |f| f.spec.max_entries = 4),
-    (3038, |f| f.spec.reserved = 1),
     (3050, |f| f.provenance.as_mut().unwrap().shapes.truncate(2)),
     (3051, |f| f.provenance.as_mut().unwrap().options.reverse()),
     (3052, |f| msdf_error(f).wrong_share = 1.5),

@@ -8,6 +8,7 @@ mod cases;
 mod damage;
 mod forge;
 mod gradients;
+mod keys;
 mod outlined;
 mod roundtrip;
 mod sample;

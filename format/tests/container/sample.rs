@@ -46,7 +46,6 @@ pub(crate) fn small() -> VtexFile {
     let file = VtexFile {
         spec: SpecKey {
             features: Features::MIPS,
-            ..SpecKey::default()
         },
         shader: ShaderBlob {
             abi: SHADER_ABI,
@@ -303,7 +302,6 @@ pub(crate) fn arbitrary(u: &mut Unstructured<'_>) -> Result<VtexFile> {
     Ok(with_key(VtexFile {
         spec: SpecKey {
             features: if mips { Features::MIPS } else { 0 },
-            ..SpecKey::default()
         },
         shader: ShaderBlob {
             abi: u.arbitrary()?,

@@ -1,7 +1,7 @@
 //! A file whose lists clip, mask and group, what can be wrong with them, and what not.
 
 use vtex_format::{
-    BlendMode, CellWord, Entry, EntryKind, Features, MaskKind, OPEN_ISOLATED, SpecKey, VtexFile,
+    BlendMode, CellWord, Entry, EntryKind, Features, MaskKind, OPEN_ISOLATED, VtexFile,
 };
 
 use crate::cases::ValueCase;
@@ -75,9 +75,6 @@ pub(crate) const SCOPED_VALUES: &[ValueCase] = &[
     (3033, |f| f.spec.features &= !Features::CLIPS),
     (3033, |f| f.spec.features &= !Features::GROUPS),
     (3033, |f| f.spec.features &= !Features::BLENDS),
-    (3039, |f| f.spec.frames = 2),
-    (3039, |f| f.spec.frames = 4),
-    (3038, |f| f.spec.reserved = 3),
     (5011, |f| *head(f, 1) |= 1),
     (5011, |f| *data(f, 1) = 2),
     (5011, |f| *data(f, 3) = 3),
@@ -129,21 +126,18 @@ fn deep(file: &mut VtexFile) {
 fn the_sample_needs_what_it_holds() {
     let file = scoped();
     assert_eq!(file.check(), []);
-    assert_eq!(file.spec.frames, 3);
     let bits = Features::CLIPS | Features::GROUPS | Features::BLENDS;
     assert_eq!(file.spec.features & bits, bits);
-    assert_eq!(SpecKey::for_file(&sample::small()).frames, 0);
+    assert_eq!(sample::small().spec.features & bits, 0);
 }
 
 #[test]
 fn lists_may_begin_where_blocks_do() {
-    for (at, frames) in [(1, 3), (4, 3), (10, 3)] {
+    for at in [1, 4, 10] {
         let mut file = scoped();
         second(&mut file, at);
         assert_eq!(file.check(), [], "entry {at}");
         file.cells[0] = 0;
-        let file = sample::with_key(file);
         assert_eq!(file.check(), [], "entry {at}");
-        assert_eq!(file.spec.frames, if at == 10 { 0 } else { frames - 1 });
     }
 }

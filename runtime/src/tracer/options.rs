@@ -9,9 +9,11 @@ pub struct TraceOptions {
     pub max_bounces: u32,
     /// Seed of all random numbers.
     pub seed: u32,
-    /// Scale of ray-cone footprints, in (0, 1]. With N samples a pixel, `1 / sqrt(N)` leaves
-    /// filtering to the samples; 1 filters each lookup over the whole pixel, right for a single
-    /// sample. See [`TraceOptions::for_samples`].
+    /// Scale of ray-cone footprints, in (0, 1]: `1 / sqrt(N)` where a pixel gets N samples in the
+    /// end, so that each has 1/N of the pixel's footprint; see [`TraceOptions::for_samples`]. It is
+    /// the same for all samples, however many there are so far: a picture must not depend on how
+    /// they were spread over calls. With more samples than planned a picture stays softer, with
+    /// fewer it has more noise, and nothing else changes.
     pub footprint_scale: f32,
     /// Largest radiance a sample may add by light that scattered twice or more. Lower means fewer
     /// bright dots and a darker picture; infinity switches the bias off.
@@ -52,6 +54,7 @@ impl Default for TraceOptions {
         Self {
             max_bounces: 8,
             seed: 0,
+            // 16 samples.
             footprint_scale: 0.25,
             indirect_clamp: 16.0,
             light_sampling: LightSampling::Mis,
@@ -61,12 +64,11 @@ impl Default for TraceOptions {
 }
 
 impl TraceOptions {
-    /// The defaults with the footprint scale that suits `samples` a pixel: `1 / sqrt(samples)`,
-    /// at least 1/8 so that minified textures keep their mips' calm.
+    /// The defaults with the footprint scale for `samples` a pixel, `1 / sqrt(samples)`.
     #[must_use]
     pub fn for_samples(samples: u32) -> Self {
         Self {
-            footprint_scale: (1.0 / (samples.max(1) as f32).sqrt()).max(0.125),
+            footprint_scale: 1.0 / (samples.max(1) as f32).sqrt(),
             ..Self::default()
         }
     }

@@ -1,5 +1,4 @@
-//! Twin of `vtex/blend_modes.wgsl`, `vtex/blend_separable.wgsl` and `vtex/blend_hue.wgsl`:
-//! Compositing and Blending Level 1. `b` is the backdrop, `s` the source, straight.
+//! Twin of `vtex/blend.wgsl`: Compositing and Blending Level 1. `b` is the backdrop, `s` the source, straight.
 
 use crate::layout::blend as mode;
 
@@ -17,7 +16,7 @@ pub(super) fn blend(number: u32, behind: [f32; 4], group: [f32; 4]) -> [f32; 4] 
     let straight = |[r, g, b, a]: [f32; 4]| [r, g, b].map(|c| (c / a).min(1.0));
     let [b, s] = [straight(behind), straight(group)];
     let blended = if number >= mode::HUE {
-        not_separable(number, b, s)
+        hue(number, b, s)
     } else {
         std::array::from_fn(|i| separable(number, b[i], s[i]))
     };
@@ -85,7 +84,7 @@ fn soft_light(b: f32, s: f32) -> f32 {
     b + (2.0 * s - 1.0) * (d - b)
 }
 
-fn not_separable(number: u32, b: Rgb, s: Rgb) -> Rgb {
+fn hue(number: u32, b: Rgb, s: Rgb) -> Rgb {
     match number {
         mode::HUE => set_lum(set_sat(s, sat(b)), lum(b)),
         mode::SATURATION => set_lum(set_sat(b, sat(s)), lum(b)),

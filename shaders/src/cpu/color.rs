@@ -1,4 +1,4 @@
-//! Twin of `core/decode.wgsl` and `core/encode.wgsl`: the sRGB transfer functions of IEC 61966-2-1.
+//! Twin of `core/color.wgsl`: the sRGB transfer functions of IEC 61966-2-1.
 
 /// Linear light of one sRGB-encoded channel; below zero counts as zero.
 pub fn decode_channel(encoded: f32) -> f32 {

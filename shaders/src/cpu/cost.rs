@@ -1,11 +1,8 @@
-//! What a magnified lookup reads, for reports: no twin, but it walks as the twin does.
+//! What a lookup reads, for reports: no twin, but it watches the twin's own walk.
 
-use vtex_format::{Features, MAX_ENTRIES_PER_CELL};
-
-use super::cell::find;
-use super::coverage::coverage;
-use super::{Lookup, Sampler, flow, footprint};
-use crate::layout::{cell, filter, item};
+use super::picture::picture;
+use super::{Lookup, Sampler};
+use crate::layout::item;
 
 /// Bytes of a fine cell's word.
 const CELL_BYTES: u32 = 4;
@@ -31,80 +28,67 @@ pub struct LookupCost {
     pub bytes: u32,
 }
 
-impl Sampler<'_> {
-    /// What the lookup at `uv`, inside the canvas before the texture matrix, reads when cells
-    /// answer it alone; `footprint` as for [`Sampler::sample`].
-    pub fn cost(&self, uv: [f32; 2], footprint: [f32; 4]) -> LookupCost {
-        let lookup = Lookup {
-            uv: uv.map(|t| t.clamp(0.0, 1.0)),
-            width_cells: footprint::width_cells(self.settings.scale, footprint),
-            q: [0.0; 2],
-        };
-        let (word, q) = find(self, &lookup);
-        let mut cost = LookupCost {
-            bytes: CELL_BYTES,
-            ..LookupCost::default()
-        };
-        match word >> cell::TAG_SHIFT {
-            cell::SOLID => cost.bytes += PAINT_BYTES,
-            tag @ (cell::LIST | cell::SCOPES) => {
-                let offset = (word & cell::PAYLOAD_MASK).wrapping_mul(item::WORDS);
-                let first = self.settings.items.wrapping_add(offset);
-                cost.list(self, first, &Lookup { q, ..lookup }, tag);
+/// Is told what a lookup reads.
+pub(super) trait Observer {
+    /// A fine cell.
+    fn cell(&mut self);
+    /// An item with this last word.
+    fn item(&mut self, tail: u32);
+    /// The paint or image of an entry with this last word.
+    fn paint(&mut self, head: u32);
+}
+
+/// Nobody watches.
+impl Observer for () {
+    fn cell(&mut self) {}
+    fn item(&mut self, _: u32) {}
+    fn paint(&mut self, _: u32) {}
+}
+
+/// The cost so far, and the items of the entry that is being read.
+#[derive(Default)]
+struct Counter {
+    cost: LookupCost,
+    items: u32,
+}
+
+impl Observer for Counter {
+    fn cell(&mut self) {
+        self.cost.bytes += CELL_BYTES;
+    }
+
+    fn item(&mut self, tail: u32) {
+        self.items += 1;
+        self.cost.bytes += ITEM_BYTES;
+        if tail & item::END_BIT != 0 {
+            self.cost.entries += 1;
+            match tail & item::KIND_MASK {
+                item::CURVES => self.cost.segments += self.items,
+                item::MSDF => {
+                    self.cost.tiles += 1;
+                    self.cost.bytes += TILE_BYTES;
+                }
+                _ => {}
             }
-            _ => {}
+            self.items = 0;
         }
-        cost
+    }
+
+    fn paint(&mut self, head: u32) {
+        let image = head & item::KIND_MASK == item::IMAGE;
+        self.cost.bytes += if image { IMAGE_BYTES } else { PAINT_BYTES };
     }
 }
 
-impl LookupCost {
-    fn list(&mut self, sampler: &Sampler<'_>, first: u32, lookup: &Lookup, tag: u32) {
-        let s = &sampler.settings;
-        // What a translucent ramp shows depends on all that lies behind it; so do groups.
-        let translucent = s.has(Features::TRANSLUCENT) && s.filter != filter::POINT;
-        let to_the_end = translucent || tag == cell::SCOPES;
-        let mut through = 1.0;
-        let mut at = first;
-        for _ in 0..MAX_ENTRIES_PER_CELL {
-            let covered = coverage(sampler, at, lookup);
-            let tail = covered.item[3];
-            self.items(tail, (covered.next - at) / item::WORDS);
-            at = covered.next;
-            let (inner, ring) = covered.coverage;
-            if tail & item::CONTROL_BIT != 0 {
-                // What is passed over in part is read.
-                if flow::tests(tail) && flow::jumps(tail, inner) >= 1.0 {
-                    at = flow::target(tail, covered.next);
-                }
-            } else {
-                if inner + ring > 0.0 {
-                    let image = tail & item::KIND_MASK == item::IMAGE;
-                    self.bytes += if image { IMAGE_BYTES } else { PAINT_BYTES };
-                }
-                if tail & item::OPAQUE_BIT != 0 {
-                    through *= 1.0 - inner;
-                }
-            }
-            let hidden = through <= 0.0 && !to_the_end;
-            if hidden || tail & item::LAST_BIT != 0 || sampler.is_past(at) {
-                break;
-            }
-        }
-    }
-
-    /// The items of an entry with this last word.
-    fn items(&mut self, tail: u32, count: u32) {
-        self.entries += 1;
-        self.bytes += count * ITEM_BYTES;
-        match tail & item::KIND_MASK {
-            item::CURVES => self.segments += count,
-            item::MSDF => {
-                self.tiles += 1;
-                self.bytes += TILE_BYTES;
-            }
-            _ => {}
-        }
+impl Sampler<'_> {
+    /// What the lookup at `uv`, inside the canvas before the texture matrix, reads when cells
+    /// answer it alone; `footprint` as for [`Sampler::sample`]. A gradient counts as a single
+    /// colour does.
+    pub fn cost(&self, uv: [f32; 2], footprint: [f32; 4]) -> LookupCost {
+        let mut counter = Counter::default();
+        let uv = uv.map(|t| t.clamp(0.0, 1.0));
+        picture(self, &Lookup::new(self, uv, footprint), &mut counter);
+        counter.cost
     }
 }
 

@@ -1,38 +1,97 @@
-//! Twin of `vtex/edge_msdf.wgsl`, `vtex/edge_curves.wgsl` and `vtex/edge_any.wgsl`.
+//! Twin of `vtex/edge_*.wgsl`, `vtex/msdf_edge.wgsl`, `vtex/ring_*.wgsl` and `vtex/outline.wgsl`: the
+//! samples that an entry or its ring covers.
 
-use super::run::{run, texels};
-use super::{Lookup, Sampler, msdf};
+use super::samples::Samples;
+use super::{Sampler, msdf};
 use crate::layout::item;
 
-/// The edge of an entry.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Edge {
-    /// The entry's last item and what follows it.
-    pub(super) item: [u32; 4],
-    pub(super) next: u32,
-    /// In texels, inside positive; where the entry fills its cell, far inside. Of curves only the
-    /// sign is right when `sharp`.
-    pub(super) distance: f32,
+/// The windings about the outline of the entry that a walk is at.
+pub(super) struct Edge<S: Samples> {
+    winding: S::Winding,
 }
 
-pub(super) fn edge(sampler: &Sampler<'_>, first: u32, lookup: &Lookup, sharp: bool) -> Edge {
-    let item: [u32; 4] = sampler.words(first);
-    let whole = |distance| Edge {
-        item,
-        next: first.wrapping_add(item::WORDS),
-        distance,
-    };
-    // Segments of curves carry no kind but in the last; one that ends its entry says what it is.
-    if item[3] & item::END_BIT != 0 && item[3] & item::KIND_MASK != item::CURVES {
-        return whole(match item[3] & item::KIND_MASK {
-            item::MSDF => msdf::distance(sampler, item[0], lookup.q),
-            _ => 1e9,
-        });
+impl<S: Samples> Edge<S> {
+    pub(super) fn new() -> Self {
+        Self {
+            winding: S::Winding::default(),
+        }
     }
-    let run = run(sampler, first, lookup.q, sharp);
-    Edge {
-        item: run.item,
-        next: run.next,
-        distance: texels(sampler, &run, sharp),
+
+    /// An item of the entry.
+    pub(super) fn wind(&mut self, samples: &S, item: [u32; 4]) {
+        samples.wind(&mut self.winding, item);
     }
+
+    /// The samples that the entry with this last item covers; the next entry begins. Of those that
+    /// are not in `live` nothing is said.
+    pub(super) fn covered(
+        &mut self,
+        sampler: &Sampler<'_>,
+        samples: &S,
+        item: [u32; 4],
+        live: u32,
+    ) -> u32 {
+        let winding = std::mem::take(&mut self.winding);
+        match item[3] & item::KIND_MASK {
+            item::CURVES => samples.filled(winding, item[3]),
+            item::MSDF => within(sampler, samples, item[0], 0.0, live),
+            _ => u32::MAX,
+        }
+    }
+}
+
+/// The samples in the ring around an MSDF entry, \[SFG22\] eq. 2.
+pub(super) fn ring<S: Samples>(
+    sampler: &Sampler<'_>,
+    samples: &S,
+    item: [u32; 4],
+    covered: u32,
+    live: u32,
+) -> u32 {
+    let s = &sampler.settings;
+    if !s.outline || item[3] & item::KIND_MASK != item::MSDF {
+        return 0;
+    }
+    within(sampler, samples, item[0], -s.outline_width, live & !covered) & !covered
+}
+
+/// The samples of `live` whose distance, inside positive, is greater than `least`.
+fn within<S: Samples>(sampler: &Sampler<'_>, samples: &S, tile: u32, least: f32, live: u32) -> u32 {
+    let mut mask = 0;
+    let mut rest = live;
+    while rest != 0 {
+        let bit = rest & rest.wrapping_neg();
+        let q = samples.q(rest.trailing_zeros());
+        if msdf::distance(sampler, tile, q) > least {
+            mask |= bit;
+        }
+        rest &= !bit;
+    }
+    mask
+}
+
+/// The samples that a test or jump with this last word passes on, when it covers `covered`.
+pub(super) const fn jumps(tail: u32, covered: u32) -> u32 {
+    if tail & item::OPAQUE_BIT != 0 {
+        covered
+    } else {
+        !covered
+    }
+}
+
+/// Where a walk ends: behind every item.
+pub(super) const BEYOND: u32 = u32::MAX;
+
+/// Where a control item passes over items to, when `next` follows it.
+pub(super) const fn target(tail: u32, next: u32) -> u32 {
+    match tail & item::INDEX_MASK {
+        0 => BEYOND,
+        over => next.wrapping_add(over.wrapping_mul(item::WORDS)),
+    }
+}
+
+/// Whether a control item with this last word is a test or a jump.
+pub(super) const fn is_test(tail: u32) -> bool {
+    let op = tail & item::CONTROL_MASK;
+    tail & item::KIND_MASK == item::CURVES || op == item::JUMP
 }

@@ -1,8 +1,8 @@
 //! Whether a part of the canvas has one colour: no twin, for the baker.
 
-use super::cell::{shown, word_at};
-use super::fill::varies;
 use super::math::{clamp, to_f32, to_u32};
+use super::paint::varies;
+use super::picture::{point, word_at};
 use super::{Lookup, Sampler, segment};
 use crate::layout::{cell, filter, item};
 
@@ -36,19 +36,15 @@ impl Sampler<'_> {
         });
         let payload = word & cell::PAYLOAD_MASK;
         let flat = match word >> cell::TAG_SHIFT {
-            cell::LIST | cell::SCOPES => self.is_flat(payload, low, high),
-            cell::SOLID => !varies(self, payload),
+            cell::LIST | cell::GROUPS => self.is_flat(payload, low, high),
+            cell::SOLID => !varies(self, word & cell::PAINT_MASK),
             _ => true,
         };
         if !flat {
             return None;
         }
-        let lookup = Lookup {
-            uv: [0.0; 2],
-            width_cells: 0.0,
-            q: low,
-        };
-        Some(shown(self, word, &lookup))
+        let lookup = Lookup::new(self, [0.0; 2], [0.0; 4]);
+        Some(point(self, &lookup, word, low, &mut ()))
     }
 
     /// Whether each entry of a list either fills the box or stays out of it.

@@ -1,20 +1,16 @@
-//! Twin of `core/math.wgsl`, and of the WGSL built-ins that Rust lacks.
-
-pub(super) fn median(v: [f32; 3]) -> f32 {
-    v[0].min(v[1]).max(v[0].max(v[1]).min(v[2]))
-}
+//! Built-ins of WGSL that Rust lacks: no twin.
 
 pub(super) fn clamp(x: f32, low: f32, high: f32) -> f32 {
     x.max(low).min(high)
 }
 
-pub(super) fn length([x, y]: [f32; 2]) -> f32 {
-    (x * x + y * y).sqrt()
-}
-
 pub(super) fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
     let t = clamp((x - low) / (high - low), 0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
+}
+
+pub(super) fn mix(a: [f32; 4], b: [f32; 4], t: f32) -> [f32; 4] {
+    std::array::from_fn(|i| a[i] * (1.0 - t) + b[i] * t)
 }
 
 /// The integer part of a float that is not negative; what does not fit saturates.
@@ -23,7 +19,7 @@ pub(super) fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
     clippy::cast_sign_loss,
     reason = "saturation is what WGSL's u32() does; callers have clamped"
 )]
-pub(super) fn to_u32(x: f32) -> u32 {
+pub(crate) fn to_u32(x: f32) -> u32 {
     x as u32
 }
 
@@ -56,18 +52,6 @@ mod tests {
                     half.to_f32().to_bits()
                 );
             }
-        }
-    }
-
-    #[test]
-    fn median_of_every_order() {
-        for v in [
-            [1.0, 2.0, 3.0],
-            [2.0, 1.0, 3.0],
-            [3.0, 1.0, 2.0],
-            [3.0, 2.0, 1.0],
-        ] {
-            assert!((median(v) - 2.0).abs() < f32::EPSILON, "{v:?}");
         }
     }
 }

@@ -1,28 +1,32 @@
-//! Twin of `vtex/minify_mips.wgsl`.
+//! Twin of `vtex/minify.wgsl`.
 
-use super::address::wraps;
-use super::cell::cells;
-use super::image::{trilinear, weight};
-use super::{Lookup, Sampler, Value};
-use vtex_format::Features;
+use super::image::{Region, filtered, weight};
+use super::mapping::wraps;
+use super::picture::picture;
+use super::{Lookup, Sampler};
 
 /// Cells up to half a texel of mip 0, the raster chain from one texel on, a fade between.
-pub(super) fn minify<V: Value>(sampler: &Sampler<'_>, lookup: &Lookup) -> V {
+pub(super) fn minify(sampler: &Sampler<'_>, lookup: &Lookup) -> [f32; 4] {
     let s = &sampler.settings;
-    let texels = lookup.width_cells * s.mip_texels_per_cell;
-    // A logarithm costs as much as the rest of a magnified lookup.
-    if !s.has(Features::MIPS) || texels <= 0.5 {
-        return cells(sampler, lookup);
+    let [ax, ay, bx, by] = lookup.axes;
+    let texels = s.mip_texels_per_cell * s.mip_texels_per_cell;
+    let longer = (ax * ax + ay * ay).max(bx * bx + by * by) * texels;
+    // Roots and a logarithm cost as much as the rest of a magnified lookup. No region is wider than
+    // its longer axis. Without a chain its texels are 0.
+    if longer <= 0.25 {
+        return picture(sampler, lookup, &mut ());
     }
-    let lod = texels.log2();
-    let fade = weight(lod + 1.0);
-    let mut value = V::ZERO;
+    let region = Region::new(lookup.axes, s.mip_texels_per_cell);
+    let fade = weight(region.lod + 1.0);
+    let mut value = [0.0; 4];
     if fade < 1.0 {
-        value = cells::<V>(sampler, lookup).scaled(1.0 - fade);
+        let cells = picture(sampler, lookup, &mut ());
+        value = cells.map(|channel| (1.0 - fade) * channel);
     }
     if fade > 0.0 {
-        let chain: V = trilinear(sampler, s.images, lod, lookup.uv, wraps(sampler));
-        value = value.plus(chain.scaled(fade));
+        let apart = [0, 1].map(|axis| region.apart[axis] / s.scale[axis]);
+        let chain = filtered(sampler, s.images, &region, lookup.uv, apart, wraps(sampler));
+        value = std::array::from_fn(|i| value[i] + fade * chain[i]);
     }
     value
 }

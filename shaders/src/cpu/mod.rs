@@ -4,44 +4,36 @@
 //!
 //! Where the WGSL is specialised by choosing modules, the twin asks the header.
 
-mod address;
 mod blend;
-mod cell;
 pub mod color;
-mod composite;
 mod cost;
-mod coverage;
 mod edge;
-mod entry;
-mod fill;
 mod flat;
-mod flow;
-mod footprint;
-mod frames;
 mod gradient;
-mod group;
+mod groups;
 mod image;
+mod lookup;
+mod mapping;
 mod math;
-mod matrix;
 mod minify;
 mod msdf;
-mod over;
+mod paint;
+mod paper;
+mod picture;
 pub(crate) mod plane;
-mod ramp;
-mod run;
+mod rows;
 mod sample;
-mod scopes;
+mod samples;
 mod segment;
 mod settings;
 mod source;
-mod value;
+mod walk;
 mod words;
 
 pub use cost::LookupCost;
-use footprint::Lookup;
-pub(crate) use math::to_f32;
+use lookup::Lookup;
+pub(crate) use math::{to_f32, to_u32};
 use settings::Settings;
-use value::Value;
 
 /// A packed texture ready to be looked up. Cheap to make and to copy; lookups allocate nothing.
 ///
@@ -69,18 +61,33 @@ impl<'a> Sampler<'a> {
     pub fn sample(&self, uv: [f32; 2], footprint: [f32; 4]) -> [f32; 4] {
         sample::sample(self, uv, footprint)
     }
+
+    /// Where a lookup in footprint mode samples, in uv after texture matrix and address mode: in the
+    /// cells it is the mean of point lookups there. What lies beyond the canvas is left out.
+    ///
+    /// For tests and reports: lookups do not make this list.
+    pub fn places(&self, uv: [f32; 2], footprint: [f32; 4]) -> Vec<[f32; 2]> {
+        picture::places(self, &sample::lookup(self, uv, footprint))
+    }
 }
 
 /// Whether the entry whose items `words` start with fills at `p`, in units of its cell's box.
 #[cfg(test)]
 pub(crate) fn items_fill(words: &[u32], p: [f32; 2]) -> bool {
-    run::run_at(&Sampler::new(words), 0, p, true).inside
-}
-
-/// How far its outline is, at most `reach`.
-#[cfg(test)]
-pub(crate) fn items_distance(words: &[u32], p: [f32; 2], reach: f32) -> f32 {
-    let mut sampler = Sampler::new(words);
-    sampler.settings.curve_lattice = [1.0, reach];
-    run::run_at(&sampler, 0, p, false).nearest.sqrt()
+    let sampler = Sampler::new(words);
+    let point = samples::Point {
+        uv: [0.0; 2],
+        q: [0.0; 2],
+        p,
+    };
+    let mut edge = edge::Edge::new();
+    let items = words.as_chunks::<4>().0;
+    let last = items
+        .iter()
+        .position(|item| item[3] & crate::layout::item::END_BIT != 0);
+    let last = last.unwrap_or(items.len() - 1);
+    for &item in &items[..=last] {
+        edge.wind(&point, item);
+    }
+    edge.covered(&sampler, &point, items[last], 1) != 0
 }

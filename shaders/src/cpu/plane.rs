@@ -1,4 +1,5 @@
-//! Points of the curve lattice and vectors between them.
+//! Points of the curve lattice and vectors between them. With `segment.rs` the twin of
+//! `vtex/segment.wgsl`.
 
 use super::math::to_f32;
 
@@ -11,10 +12,6 @@ pub(crate) fn point(word: u32) -> Vec2 {
 
 pub(crate) fn sub(a: Vec2, b: Vec2) -> Vec2 {
     [a[0] - b[0], a[1] - b[1]]
-}
-
-pub(crate) fn dot(a: Vec2, b: Vec2) -> f32 {
-    a[0] * b[0] + a[1] * b[1]
 }
 
 pub(crate) fn cross(a: Vec2, b: Vec2) -> f32 {

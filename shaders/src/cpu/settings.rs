@@ -1,10 +1,9 @@
-//! The header, read once. Twin of `vtex/settings_header.wgsl`.
+//! The header, read once. Twin of `vtex/settings.wgsl` and of `vtex/texture.wgsl`.
 
 use vtex_format::Features;
 
 use super::words::word_of;
 use crate::layout::{header, item, paint};
-use crate::spec::is_composited;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Settings {
@@ -26,7 +25,7 @@ pub(super) struct Settings {
     /// Whether eq. 2's outline is on.
     pub(super) outline: bool,
     pub(super) outline_paint: u32,
-    /// Twin of `vtex_over_outline_head`; without outline one that hides nothing of `head`.
+    /// What `vtex_outline_head` gives; without outline one that hides nothing of `head`.
     pub(super) outline_head: u32,
     pub(super) cells: u32,
     pub(super) items: u32,
@@ -36,8 +35,6 @@ pub(super) struct Settings {
     /// Units of the curve lattice along a cell, and around it.
     pub(super) curve_lattice: [f32; 2],
     pub(super) features: u32,
-    /// Whether some lists are walked by `vtex/scopes`.
-    pub(super) composited: bool,
 }
 
 impl Settings {
@@ -70,15 +67,18 @@ impl Settings {
             images: word(header::IMAGES),
             curve_lattice: float2(header::CURVE_UNITS),
             features: word(header::FEATURES),
-            composited: is_composited(word(header::FEATURES)),
         };
         if settings.has(Features::OUTLINE) {
             let index = settings.outline_paint;
             let first = index
                 .wrapping_mul(paint::WORDS)
                 .wrapping_add(settings.paints);
-            let alpha = float(first.wrapping_add(paint::LINEAR + 3));
-            let opaque = if alpha >= 1.0 { item::OPAQUE_BIT } else { 0 };
+            let alpha = word(first.wrapping_add(1)) >> 16;
+            let opaque = if alpha == paint::UNIT {
+                item::OPAQUE_BIT
+            } else {
+                0
+            };
             settings.outline = true;
             settings.outline_head = index | opaque;
         }

@@ -1,27 +1,43 @@
-//! Twin of `vtex/source_*.wgsl` and `vtex/encoded_*.wgsl`: colour of an entry.
+//! Twin of `vtex/source_*.wgsl`: the colour of an entry.
 
-use super::fill::fill;
-use super::value::paint_first;
-use super::{Lookup, Sampler, Value, color, image};
-use crate::layout::{item, paint};
+use super::{Lookup, Sampler, color, gradient, image, paint};
+use crate::layout::{item, paint as layout};
 
-pub(super) fn source<V: Value>(sampler: &Sampler<'_>, head: u32, lookup: &Lookup) -> V {
-    let index = head & item::INDEX_MASK;
-    if head & item::KIND_MASK == item::IMAGE {
-        return image::entry(sampler, index, lookup);
-    }
-    fill(sampler, index, lookup)
+/// A colour, premultiplied.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shown {
+    /// sRGB-encoded, as colours are composited.
+    pub(super) encoded: [f32; 4],
+    /// In linear light; its alpha is negative where it is not known.
+    pub(super) linear: [f32; 4],
 }
 
-/// sRGB-encoded, premultiplied. `value` is the same colour in linear light.
-pub(super) fn encoded(sampler: &Sampler<'_>, head: u32, value: [f32; 4]) -> [f32; 4] {
+/// Linear light that is not known.
+const UNKNOWN: [f32; 4] = [0.0, 0.0, 0.0, -1.0];
+
+pub(super) fn source(sampler: &Sampler<'_>, head: u32, uv: [f32; 2], lookup: &Lookup) -> Shown {
+    let index = head & item::INDEX_MASK;
     if head & item::KIND_MASK == item::IMAGE {
-        return color::encode_premultiplied(value);
+        let linear = image::entry(sampler, index, uv, lookup);
+        return Shown {
+            encoded: color::encode_premultiplied(linear),
+            linear,
+        };
     }
-    let first = paint_first(sampler, head & item::INDEX_MASK);
-    let [r, g, b, a] = sampler.word_float4(first.wrapping_add(paint::ENCODED));
-    if a < 0.0 {
-        return color::encode_premultiplied(value);
+    let [first, second, third, fourth] = paint::words(sampler, index);
+    let varies = second == layout::GRADIENT;
+    let straight = if varies {
+        gradient::gradient(sampler, first, uv)
+    } else {
+        paint::unpack([third, fourth])
+    };
+    let [r, g, b, a] = straight;
+    Shown {
+        encoded: [r * a, g * a, b * a, a],
+        linear: if varies {
+            UNKNOWN
+        } else {
+            paint::unpack([first, second])
+        },
     }
-    [r * a, g * a, b * a, a]
 }

@@ -1,4 +1,4 @@
-//! Twin of `vtex/words.wgsl`. Words past the end are zero.
+//! Twin of `vtex/texture.wgsl`, with `settings.rs`: its words. Words past the end are zero.
 
 use super::Sampler;
 

@@ -2,19 +2,23 @@
 
 use vtex_format::{CellWord, VtexFile};
 
+use crate::layout::FilterMode;
+
 use super::list::List;
 use super::outline::Region;
-use super::{list_of, whole_cell};
+use super::{list_of, reached, whole_cell};
 
 /// Deepest subdivision: each step halves the sides of cells.
 pub(super) const MAX_DEPTH: u32 = 5;
 /// Lists that stand for all of a file.
 const SAMPLES: usize = 192;
 /// Cost of walking an item. The unit is a lookup in a cell of one colour (about 7.5 ns on two
-/// cores under llvmpipe, where an item takes 2 ns, and with a distance 4 ns).
+/// cores under llvmpipe, where an item takes 2 ns).
 const ITEM_COST: f64 = 0.27;
-/// The same where the item's distance is measured.
-const DISTANCE_ITEM_COST: f64 = 0.55;
+/// The same for the samples of a footprint: 34 ns where a point's item takes 21, in the busiest part of
+/// the Tiger on a slower machine. (The twin takes 4.8 times as long for one, but is not what most
+/// lookups run on.)
+const FOOTPRINT_ITEM_COST: f64 = 0.45;
 /// Cost of a MiB. What it is worth in time is a judgement: each must save a mean lookup an item in
 /// fourteen. Twice this takes 10% off the rate in the busiest part of a coat of arms (`saxony`), and
 /// 2.4 of its 6.0 MiB.
@@ -32,7 +36,7 @@ struct Sums {
 }
 
 /// How often `file`'s cells are to be halved.
-pub(super) fn choose(file: &VtexFile, distances: bool) -> u32 {
+pub(super) fn choose(file: &VtexFile, filter: FilterMode) -> u32 {
     let lists: Vec<u32> = file
         .cells
         .iter()
@@ -43,15 +47,22 @@ pub(super) fn choose(file: &VtexFile, distances: bool) -> u32 {
         .collect();
     let step = lists.len().div_ceil(SAMPLES).max(1);
     let mut sums = [Sums::default(); MAX_DEPTH as usize + 1];
-    let whole = whole_cell(file, distances);
+    let whole = whole_cell(file);
+    let reached = |region: &Region| reached(region, &whole, filter);
     for &offset_words in lists.iter().step_by(step) {
-        add(&mut sums, &list_of(file, offset_words), &whole, 1.0);
+        add(
+            &mut sums,
+            &list_of(file, offset_words),
+            &whole,
+            1.0,
+            &reached,
+        );
     }
     let [cells, sampled, lists] =
         [file.cells.len(), lists.len().div_ceil(step), lists.len()].map(count);
     let per_list = lists / sampled.max(1.0);
-    let item_cost = if distances {
-        DISTANCE_ITEM_COST
+    let item_cost = if filter == FilterMode::Footprint {
+        FOOTPRINT_ITEM_COST
     } else {
         ITEM_COST
     };
@@ -67,8 +78,15 @@ pub(super) fn choose(file: &VtexFile, distances: bool) -> u32 {
         .map_or(0, |(depth, _)| depth)
 }
 
-/// Adds `list`, which shows in `region`, `share` of a cell, to the sums from its depth on.
-fn add(sums: &mut [Sums], list: &List, region: &Region, share: f64) {
+/// Adds `list`, which shows in `region`, `share` of a cell, to the sums from its depth on; `reached`
+/// says what the list of a region serves.
+fn add(
+    sums: &mut [Sums],
+    list: &List,
+    region: &Region,
+    share: f64,
+    reached: &impl Fn(&Region) -> Region,
+) {
     let Some((sum, deeper)) = sums.split_first_mut() else {
         return;
     };
@@ -81,7 +99,8 @@ fn add(sums: &mut [Sums], list: &List, region: &Region, share: f64) {
     sum.stored += items;
     if list.has_outlines() {
         for quarter in &region.quarters() {
-            add(deeper, &list.within(quarter), quarter, 0.25 * share);
+            let inner = list.within(&reached(quarter));
+            add(deeper, &inner, quarter, 0.25 * share, reached);
         }
     } else {
         // What has no outline is not divided: the same list serves all its parts.

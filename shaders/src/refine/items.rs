@@ -58,9 +58,7 @@ impl Writer {
 
     fn draw(&mut self, Part { entry, outline }: &Part) {
         match outline {
-            None => self
-                .items
-                .push([entry.data, 0, 0, item::GHOST_BIT | tail(entry)]),
+            None => self.items.push([entry.data, 0, 0, tail(entry)]),
             Some(outline) => self.outline(outline, tail(entry)),
         }
     }
@@ -71,7 +69,7 @@ impl Writer {
         let base = outline.base.clamp(-BASE_LIMIT, BASE_LIMIT - 1);
         push_outline(&mut self.items, outline, outline.base - base);
         if self.items.len() == first {
-            self.items.push([0, 0, 0, item::GHOST_BIT]);
+            self.items.push([0; 4]);
         }
         let base = (base.cast_unsigned() << item::BASE_RIGHT) >> item::BASE_LEFT;
         let rule = if outline.even_odd {
@@ -92,9 +90,7 @@ impl Writer {
             let inside = if test.inside { item::OPAQUE_BIT } else { 0 };
             let tail = item::END_BIT | item::CONTROL_BIT | inside;
             match &test.outline {
-                None => self
-                    .items
-                    .push([0, 0, 0, item::GHOST_BIT | item::JUMP | tail]),
+                None => self.items.push([0, 0, 0, item::JUMP | tail]),
                 Some(outline) => self.outline(outline, item::CURVES | tail),
             }
             ends.push(self.items.len() - 1);
@@ -129,7 +125,7 @@ impl Writer {
     }
 
     fn control(&mut self, [x, y, z]: [u32; 3], op: u32) {
-        let tail = item::GHOST_BIT | item::END_BIT | item::CONTROL_BIT | op;
+        let tail = item::END_BIT | item::CONTROL_BIT | op;
         self.items.push([x, y, z, tail]);
     }
 
@@ -167,9 +163,7 @@ fn push_outline(items: &mut Vec<[u32; 4]>, outline: &Outline, excess: i32) {
             down: change > 0,
             line: true,
         };
-        let [a, c, b, tail] = encode(&line);
-        let ghost = [a, c, b, tail | item::GHOST_BIT];
-        items.extend((0..change.unsigned_abs()).map(|_| ghost));
+        items.extend((0..change.unsigned_abs()).map(|_| encode(&line)));
     }
     items.extend(outline.segments.iter().map(encode));
 }

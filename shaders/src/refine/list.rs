@@ -73,9 +73,9 @@ impl List {
         }
     }
 
-    /// Whether evaluators need frames for it: for groups, and for clips where edges are ramps.
-    pub(super) fn needs_frames(&self, distances: bool) -> bool {
-        needs_frames(&self.nodes, distances)
+    /// Whether some blocks are composited as one.
+    pub(super) fn has_groups(&self) -> bool {
+        any_group(&self.nodes)
     }
 
     /// The paint that fills the region, if nothing else shows.
@@ -97,10 +97,10 @@ impl List {
     }
 }
 
-fn needs_frames(nodes: &[Node], distances: bool) -> bool {
+fn any_group(nodes: &[Node]) -> bool {
     nodes.iter().any(|node| match node {
         Node::Draw(_) => false,
-        Node::Clip(clip) => distances || needs_frames(&clip.body, distances),
+        Node::Clip(clip) => any_group(&clip.body),
         Node::Group(_) => true,
     })
 }

@@ -13,8 +13,6 @@ pub(super) struct Region {
     pub(super) x: [f64; 2],
     /// Top and bottom.
     pub(super) y: [f64; 2],
-    /// How far outside an edge still concerns lookups; 0 where only the winding counts.
-    pub(super) reach: f64,
 }
 
 /// A line or quadratic from its upper to its lower end. A line's control point is its upper end.
@@ -50,8 +48,19 @@ enum Side {
 }
 
 impl Region {
-    fn grown(&self, by: f64) -> [[f64; 2]; 2] {
-        [self.x, self.y].map(|[low, high]| [low - by, high + by])
+    /// It and what lies so near.
+    pub(super) fn grown(&self, by: f64) -> Self {
+        let [x, y] = [self.x, self.y].map(|[low, high]| [low - by, high + by]);
+        Self { x, y }
+    }
+
+    /// What it and `other` share.
+    pub(super) fn meet(&self, other: &Self) -> Self {
+        let meet = |one: [f64; 2], other: [f64; 2]| [one[0].max(other[0]), one[1].min(other[1])];
+        Self {
+            x: meet(self.x, other.x),
+            y: meet(self.y, other.y),
+        }
     }
 
     /// The quarters, row by row.
@@ -61,11 +70,7 @@ impl Region {
             [[low, middle], [middle, high]]
         };
         let ([left, right], [top, bottom]) = (halves(self.x), halves(self.y));
-        [[left, top], [right, top], [left, bottom], [right, bottom]].map(|[x, y]| Self {
-            x,
-            y,
-            ..*self
-        })
+        [[left, top], [right, top], [left, bottom], [right, bottom]].map(|[x, y]| Self { x, y })
     }
 }
 
@@ -106,7 +111,8 @@ impl Segment {
     }
 
     /// Which side of the box it lies on where it passes the box's heights.
-    fn side(&self, [[left, right], [top, bottom]]: [[f64; 2]; 2]) -> Side {
+    fn side(&self, region: &Region) -> Side {
+        let ([left, right], [top, bottom]) = (region.x, region.y);
         let (first, last) = (f64::from(self.top()), f64::from(self.bottom()));
         if last < top || first > bottom {
             return Side::Beyond;
@@ -162,10 +168,7 @@ impl Outline {
 
     /// What of it counts in `region`, a part of the region it is for.
     pub(super) fn within(&self, region: &Region) -> Self {
-        let (near, reached) = (
-            region.grown(SLACK_UNITS),
-            region.grown(SLACK_UNITS + region.reach),
-        );
+        let near = region.grown(SLACK_UNITS);
         let mut inner = Self {
             base: self.base,
             changes: self.changes.clone(),
@@ -174,16 +177,20 @@ impl Outline {
         };
         for segment in &self.segments {
             let crosses = segment.bottom() > segment.top();
-            let counts = crosses || region.reach > 0.0;
-            if counts && segment.side(reached) == Side::Inside {
+            // A horizontal one changes no winding.
+            if !crosses {
+                continue;
+            }
+            let side = segment.side(&near);
+            if side == Side::Inside {
                 inner.segments.push(*segment);
-            } else if crosses && segment.side(near) == Side::Left {
+            } else if side == Side::Left {
                 let change = if segment.down { 1 } else { -1 };
                 inner.changes.push((segment.top(), change));
                 inner.changes.push((segment.bottom(), -change));
             }
         }
-        inner.fold_changes(near[1]);
+        inner.fold_changes(near.y);
         inner
     }
 

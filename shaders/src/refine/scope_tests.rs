@@ -48,7 +48,6 @@ fn around(x: f64, y: f64) -> Region {
     Region {
         x: [x - 100.0, x + 100.0],
         y: [y - 100.0, y + 100.0],
-        reach: 0.0,
     }
 }
 
@@ -75,7 +74,7 @@ fn tests_that_are_decided_go() {
     let test = item::CONTROL_BIT | 1;
     let opaque = item::OPAQUE_BIT;
     assert_eq!(tails(&edge), [test, opaque | 3, opaque | 4]);
-    assert!(edge.needs_frames(true) && !edge.needs_frames(false));
+    assert!(!edge.has_groups());
 }
 
 #[test]
@@ -110,7 +109,7 @@ fn groups_of_nothing_go() {
     };
     let shown = group(half).within(&around(1000.0, 1000.0));
     assert_eq!(shown.item_count(), 6);
-    assert!(shown.needs_frames(false));
+    assert!(shown.has_groups());
     assert!(group(half).within(&around(3000.0, 1000.0)).is_empty());
     assert!(group(half).within(&around(1000.0, 3000.0)).is_empty());
     assert!(group(0).within(&around(1000.0, 1000.0)).is_empty());

@@ -4,7 +4,7 @@ use vtex_format::CurveHeader;
 
 use super::items::Order;
 use super::list::List;
-use super::outline::{Outline, Region};
+use super::outline::Region;
 use crate::layout::item;
 use crate::record;
 
@@ -62,7 +62,7 @@ fn random_record(random: &mut Random, count: u32) -> Vec<u32> {
     words
 }
 
-fn region(random: &mut Random, depth: u32, reach: f64) -> Region {
+fn region(random: &mut Random, depth: u32) -> Region {
     let whole = f64::from(UNITS);
     let side = whole / f64::from(1 << depth);
     let axis = |at: u32| {
@@ -72,7 +72,6 @@ fn region(random: &mut Random, depth: u32, reach: f64) -> Region {
     Region {
         x: axis(random.below(1 << depth)),
         y: axis(random.below(1 << depth)),
-        reach,
     }
 }
 
@@ -101,8 +100,7 @@ fn parts_of_a_cell_fill_as_the_record_does() {
         let record = random_record(&mut random, 1 + round % 12);
         let list = List::decode(&entry_words(3), &record);
         for depth in 0..5 {
-            let reach = if round % 2 == 0 { 0.0 } else { 200.0 };
-            let region = region(&mut random, depth, reach);
+            let region = region(&mut random, depth);
             let inner = list.within(&region);
             for _ in 0..40 {
                 let at = |range: [f64; 2], random: &mut Random| {
@@ -127,39 +125,6 @@ fn parts_of_a_cell_fill_as_the_record_does() {
 }
 
 #[test]
-fn a_part_keeps_every_segment_within_its_reach() {
-    let mut random = Random(2);
-    for round in 0..200 {
-        let record = random_record(&mut random, 1 + round % 8);
-        let outline = Outline::decode(&record).expect("a record");
-        let reach = 200.0;
-        let region = region(&mut random, 3, reach);
-        let inner = outline.within(&region);
-        let words: Vec<u32> = {
-            let list = List::decode(&entry_words(3), &record).within(&region);
-            list.items(Order::FrontToBack).as_flattened().to_vec()
-        };
-        for _ in 0..20 {
-            let share = |random: &mut Random| f64::from(random.below(1000)) / 1000.0;
-            let at =
-                [region.x, region.y].map(|[low, high]| low + share(&mut random) * (high - low));
-            #[expect(clippy::cast_possible_truncation, reason = "a lookup's f32")]
-            let p = at.map(|x| x as f32);
-            let expected = record::distance(&record, p, 200.0).abs();
-            let got = if inner.is_uniform() {
-                200.0
-            } else {
-                crate::cpu::items_distance(&words, p, 200.0)
-            };
-            assert!(
-                (got - expected).abs() < 0.05,
-                "round {round}: {got} {expected}"
-            );
-        }
-    }
-}
-
-#[test]
 fn windings_beyond_an_item_are_lines_beside_the_cell() {
     for base_winding in [-512, -9, -8, 0, 7, 8, 511] {
         let header = CurveHeader {
@@ -171,7 +136,7 @@ fn windings_beyond_an_item_are_lines_beside_the_cell() {
         let mut words = header.encode().expect("fits").to_vec();
         words.push(1000 | 1 << 16);
         let items = List::decode(&entry_words(0), &words).items(Order::FrontToBack);
-        assert!(items.iter().all(|words| words[3] & item::GHOST_BIT != 0));
+        assert!(items.iter().all(|words| words[3] & item::LINE_BIT != 0));
         for (y, added) in [(999.0, 0), (1000.0, 1), (4000.0, 1)] {
             let odd = (base_winding + added) & 1 != 0;
             assert_eq!(fills(&items, [50.0, y]), odd, "{base_winding} at {y}");

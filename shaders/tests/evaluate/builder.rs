@@ -10,8 +10,8 @@ pub(crate) const TEXELS: u32 = 4;
 /// Full distance range in texels.
 pub(crate) const RANGE: f32 = 4.0;
 
-/// Reach of curve records in cells.
-pub(crate) const MARGIN: f32 = 0.25;
+/// How far the boxes of curve records go beyond their cells, in cells.
+const MARGIN: f32 = 0.25;
 
 /// What a listed entry is made of.
 #[derive(Clone, Copy, Debug)]
@@ -25,10 +25,15 @@ pub(crate) enum Cover {
 
 /// A file of `columns` cells in one row, all empty.
 pub(crate) fn row_of(columns: u32) -> VtexFile {
-    let grid = Grid::new([columns, 1], TEXELS);
+    board_of([columns, 1])
+}
+
+/// A file of columns and rows of cells, all empty.
+pub(crate) fn board_of(cells: [u32; 2]) -> VtexFile {
+    let grid = Grid::new(cells, TEXELS);
     VtexFile::blank(Meta {
         distance_range_texels: RANGE,
-        ..Meta::new([columns as f32, 1.0], grid)
+        ..Meta::new(cells.map(|count| count as f32), grid)
     })
 }
 
@@ -43,14 +48,8 @@ pub(crate) fn set_canvas(
     file.spec.features |= Features::MIPS;
 }
 
-/// A key that differs from the default only in what a test names.
 pub(crate) fn key(features: u32) -> SpecKey {
-    SpecKey {
-        features,
-        texels_per_cell: TEXELS,
-        max_entries: 8,
-        ..SpecKey::default()
-    }
+    SpecKey { features }
 }
 
 pub(crate) fn paint(file: &mut VtexFile, color: [f32; 4]) -> u32 {

@@ -4,14 +4,12 @@ use vtex_format::{CurveHeader, DistanceOutline, EntryKind, VtexFile};
 use vtex_shaders::cpu::Sampler;
 use vtex_shaders::{FilterMode, PackOptions, pack};
 
-use crate::builder::{
-    MARGIN, Segment, TEXELS, paint, push_entries, push_record, row_of, set_record,
-};
+use crate::builder::{Segment, TEXELS, paint, push_entries, push_record, row_of, set_record};
 
 const RED: [f32; 4] = [1.0, 0.0, 0.0, 1.0];
 
 /// Closed lines through `corners`.
-fn polygon(corners: &[[f32; 2]]) -> Vec<Segment> {
+pub(crate) fn polygon(corners: &[[f32; 2]]) -> Vec<Segment> {
     let next = corners.iter().cycle().skip(1);
     corners
         .iter()
@@ -20,7 +18,7 @@ fn polygon(corners: &[[f32; 2]]) -> Vec<Segment> {
         .collect()
 }
 
-fn square() -> Vec<Segment> {
+pub(crate) fn square() -> Vec<Segment> {
     polygon(&[[0.25, 0.25], [0.25, 0.75], [0.75, 0.75], [0.75, 0.25]])
 }
 
@@ -67,63 +65,41 @@ fn a_square_is_exact() {
     });
 }
 
+/// Of an upright edge the 32 samples lie in as many columns, of a level one in eight rows.
 #[test]
-fn a_ramp_is_the_box_average_of_an_edge() {
+fn a_footprint_is_the_box_average_of_an_edge() {
     let file = file_of(&square(), CurveHeader::default());
     for width in [0.01_f32, 0.1, 0.3] {
         let got = alpha(&file, FilterMode::Footprint, width);
         for i in 0..=100 {
-            let u = 0.1 + 0.3 * i as f32 / 100.0;
-            let expected = ((u - 0.25) / width + 0.5).clamp(0.0, 1.0);
-            let tolerance = 2e-5 / width;
-            assert!(
-                (got(u, 0.5) - expected).abs() <= tolerance,
-                "{width} at {u}"
-            );
+            // No footprint goes beyond the canvas.
+            let x = 0.155 + 0.245 * i as f32 / 100.0;
+            let expected = ((x - 0.25) / width + 0.5).clamp(0.0, 1.0);
+            // The lattice holds the edge to half a unit.
+            let rounding = 2e-5 / width;
+            for (got, spacing) in [(got(x, 0.5), 1.0 / 32.0), (got(0.5, x), 1.0 / 8.0)] {
+                assert!(
+                    (got - expected).abs() <= 0.5 * spacing + rounding,
+                    "{width} at {x}: {got}, expected {expected}"
+                );
+            }
         }
     }
 }
 
+/// \[SFG22\] eq. 1 is of distances, which curves do not store.
 #[test]
-fn paper_mode_is_equation_1() {
-    let mut file = file_of(&square(), CurveHeader::default());
+fn in_paper_mode_curves_have_hard_edges() {
+    let mut file = file_of(&circle(), CurveHeader::default());
     file.meta.sampler.smoothing = 0.2;
-    let got = alpha(&file, FilterMode::Paper, 0.1);
-    for i in 0..=100 {
-        let u = 0.15 + 0.2 * i as f32 / 100.0;
-        // The distance range is four texels, a cell.
-        let m = f64::from(u - 0.25) + 0.5;
-        let expected = crate::formula::smoothstep(0.3, 0.7, m);
-        assert!((f64::from(got(u, 0.5)) - expected).abs() < 2e-4, "at {u}");
-    }
-}
-
-#[test]
-fn beyond_its_reach_a_record_knows_the_side() {
-    let wide = polygon(&[[0.0, 0.0], [0.0, 0.6], [0.6, 0.6], [0.6, 0.0]]);
-    let file = file_of(&wide, CurveHeader::default());
-    let got = alpha(&file, FilterMode::Footprint, 100.0);
-    for (u, v, distance) in [
-        (0.3, 0.3, 0.3),
-        (0.95, 0.5, -0.35),
-        (0.55, 0.3, 0.05),
-        (0.7, 0.3, -0.1),
-    ] {
-        let expected = if f32::abs(distance) > MARGIN {
-            f32::from(u8::from(distance > 0.0))
-        } else {
-            0.5 + distance / 100.0
-        };
-        assert!(
-            (got(u, v) - expected).abs() < 1e-5,
-            "{} at ({u}, {v})",
-            got(u, v)
-        );
+    let [paper, point] = [FilterMode::Paper, FilterMode::Point].map(|f| alpha(&file, f, 0.1));
+    for (u, v) in raster() {
+        assert_eq!(paper(u, v), point(u, v), "at ({u}, {v})");
     }
 }
 
 /// A circle about (0.5, 0.5): eight quadratics, none of which turns back in x or y.
-fn circle() -> Vec<Segment> {
+pub(crate) fn circle() -> Vec<Segment> {
     const R: f32 = 0.4;
     let at = |eighth: f32, r: f32| {
         let angle = eighth * std::f32::consts::FRAC_PI_4;
@@ -145,20 +121,37 @@ fn a_circle_of_quadratics() {
         let off = 0.4 - radius(u, v);
         (off.abs() > 0.002).then_some(off > 0.0)
     });
-    let got = alpha(&file, FilterMode::Footprint, 0.2);
-    for (u, v) in raster() {
-        let expected = ((0.4 - radius(u, v)) / 0.2 + 0.5).clamp(0.0, 1.0);
-        assert!((got(u, v) - expected).abs() < 0.011, "at ({u}, {v})");
+    let width = 0.2_f32;
+    let got = alpha(&file, FilterMode::Footprint, width);
+    let (mut worst, mut squares, mut count) = (0.0_f32, 0.0, 0.0);
+    let on_canvas = |(u, v): &(f32, f32)| [u, v].iter().all(|x| (0.1..0.9).contains(*x));
+    for (u, v) in raster().filter(on_canvas) {
+        let along = |x: f32, i: u8| x + width * ((f32::from(i) + 0.5) / 32.0 - 0.5);
+        let inside = |(i, j): &(u8, u8)| radius(along(u, *i), along(v, *j)) < 0.4;
+        let places = (0..32).flat_map(|i| (0..32).map(move |j| (i, j)));
+        let expected = places.filter(inside).count() as f32 / 1024.0;
+        let error = (got(u, v) - expected).abs();
+        worst = worst.max(error);
+        squares += error * error;
+        count += 1.0;
     }
+    let rms = (squares / count).sqrt();
+    // Three of 32 samples.
+    assert!(worst < 3.0 / 32.0 && rms < 0.02, "{worst} {rms}");
 }
 
-#[test]
-fn a_star_follows_its_fill_rule() {
+/// Five corners, each joined to the next but one.
+pub(crate) fn star() -> Vec<Segment> {
     let corner = |i: i32| {
         let angle = i as f32 * 0.8 * std::f32::consts::PI - 0.5 * std::f32::consts::PI;
         [0.5 + 0.45 * angle.cos(), 0.5 + 0.45 * angle.sin()]
     };
-    let star = polygon(&[0, 1, 2, 3, 4].map(corner));
+    polygon(&[0, 1, 2, 3, 4].map(corner))
+}
+
+#[test]
+fn a_star_follows_its_fill_rule() {
+    let star = star();
     for even_odd in [false, true] {
         let header = CurveHeader {
             even_odd,
@@ -175,36 +168,44 @@ fn a_star_follows_its_fill_rule() {
     }
 }
 
-/// A bar from the middle of the first cell to that of the second. The second record has the bar's
-/// left part as two steps of the winding beside its box.
-#[test]
-fn cells_join_without_a_seam() {
-    let mut file = row_of(2);
-    let [top, bottom] = [0.3, 0.7];
+/// Heights of the bar.
+const TOP: f32 = 0.3;
+const BOTTOM: f32 = 0.7;
+
+/// A bar from the middle of a cell to that of the next. The second record has the bar's left part as
+/// two steps of the winding beside its box.
+pub(crate) fn set_bar(file: &mut VtexFile, cells: [usize; 2], color: [f32; 4]) {
     let left = push_record(
-        &mut file,
+        file,
         CurveHeader::default(),
         &[],
         &[
-            vec![[0.5, top], [0.5, bottom]],
-            vec![[0.5, top], [1.25, top]],
-            vec![[0.5, bottom], [1.25, bottom]],
+            vec![[0.5, TOP], [0.5, BOTTOM]],
+            vec![[0.5, TOP], [1.25, TOP]],
+            vec![[0.5, BOTTOM], [1.25, BOTTOM]],
         ],
     );
     let right = push_record(
-        &mut file,
+        file,
         CurveHeader::default(),
-        &[(top, 1), (bottom, -1)],
+        &[(TOP, 1), (BOTTOM, -1)],
         &[
-            vec![[0.5, bottom], [0.5, top]],
-            vec![[-0.25, top], [0.5, top]],
-            vec![[-0.25, bottom], [0.5, bottom]],
+            vec![[0.5, BOTTOM], [0.5, TOP]],
+            vec![[-0.25, TOP], [0.5, TOP]],
+            vec![[-0.25, BOTTOM], [0.5, BOTTOM]],
         ],
     );
-    set_record(&mut file, 0, left, RED);
-    set_record(&mut file, 1, right, RED);
+    for (cell, place) in cells.into_iter().zip([left, right]) {
+        set_record(file, cell, place, color);
+    }
+}
+
+#[test]
+fn cells_join_without_a_seam() {
+    let mut file = row_of(2);
+    set_bar(&mut file, [0, 1], RED);
     check_inside(&file, |u, v| {
-        Some((0.25..0.75).contains(&u) && (top..bottom).contains(&v))
+        Some((0.25..0.75).contains(&u) && (TOP..BOTTOM).contains(&v))
     });
     for filter in [FilterMode::Point, FilterMode::Footprint] {
         let got = alpha(&file, filter, 0.1);
@@ -243,30 +244,29 @@ fn a_base_winding_fills_a_cell() {
     }
 }
 
+/// \[SFG22\] eq. 2 is of distances, which curves do not store.
 #[test]
-fn an_outline_goes_around_curves_as_around_tiles() {
-    let mut file = file_of(&square(), CurveHeader::default());
+fn an_outline_leaves_curves_alone() {
+    let plain = file_of(&square(), CurveHeader::default());
+    let mut file = plain.clone();
     let ring = paint(&mut file, [0.0, 1.0, 0.0, 1.0]);
     // An eighth of a cell.
     file.meta.sampler.outline = Some(DistanceOutline {
         width_texels: TEXELS as f32 / 8.0,
         paint: ring,
     });
-    let words = pack(&file, &PackOptions::default());
-    let sampler = Sampler::new(&words);
-    for (u, v) in raster() {
-        let outside = [u, v].map(|x| (0.25 - x).max(x - 0.75).max(0.0));
-        let distance = outside[0].hypot(outside[1]);
-        let expected = match distance {
-            0.0 => [1.0, 0.0],
-            d if d < 0.125 => [0.0, 1.0],
-            _ => [0.0, 0.0],
+    for filter in crate::FILTERS {
+        let options = PackOptions {
+            filter,
+            ..PackOptions::default()
         };
-        let [r, g, ..] = sampler.sample([u, v], [0.0; 4]);
-        assert!(
-            [r, g] == expected || (distance - 0.125).abs() < 1e-4,
-            "({u}, {v}): {r} {g}"
-        );
+        let [outlined, plain] = [&file, &plain].map(|file| pack(file, &options));
+        let [outlined, plain] = [&outlined, &plain].map(|words| Sampler::new(words));
+        for (u, v) in raster() {
+            let [got, expected] =
+                [outlined, plain].map(|sampler| sampler.sample([u, v], [0.05, 0.0, 0.0, 0.05]));
+            assert_eq!(got, expected, "{filter:?} at ({u}, {v})");
+        }
     }
 }
 

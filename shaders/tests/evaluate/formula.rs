@@ -31,42 +31,18 @@ fn premultiplied(color: [f32; 4]) -> Rgba {
     [r * a, g * a, b * a, a]
 }
 
-fn combine(a: Rgba, s: f64, b: Rgba, t: f64) -> Rgba {
-    std::array::from_fn(|i| s * a[i] + t * b[i])
-}
-
-fn over(front: Rgba, back: Rgba) -> Rgba {
-    combine(front, 1.0, back, 1.0 - front[3])
-}
-
-/// Front to back on sRGB-encoded values; coverages are 0 or 1.
-pub(crate) fn point(terms: &[Term]) -> Rgba {
+/// Front to back on sRGB-encoded values. Shape and ring exclude each other, so that both lie over
+/// what is behind.
+pub(crate) fn shown(terms: &[Term]) -> Rgba {
     let mut seen = [0.0; 4];
     for term in terms {
+        let through = 1.0 - seen[3];
         for (coverage, color) in term.coverage.into_iter().zip(term.color) {
-            if coverage > 0.0 {
-                seen = over(seen, premultiplied(color));
-            }
+            let shown = premultiplied(color);
+            seen = std::array::from_fn(|i| seen[i] + through * coverage * shown[i]);
         }
     }
     straight(decode, seen)
-}
-
-/// Back to front in linear light.
-pub(crate) fn ramp(terms: &[Term]) -> Rgba {
-    terms.iter().rev().fold([0.0; 4], |behind, term| {
-        let mut sum = combine(
-            behind,
-            1.0 - term.coverage[0] - term.coverage[1],
-            [0.0; 4],
-            0.0,
-        );
-        for (coverage, color) in term.coverage.into_iter().zip(term.color) {
-            let shown = over(premultiplied(color), straight(encode, behind));
-            sum = combine(sum, 1.0, straight(decode, shown), coverage);
-        }
-        sum
-    })
 }
 
 pub(crate) fn smoothstep(low: f64, high: f64, x: f64) -> f64 {

@@ -1,13 +1,14 @@
 //! Gradients: t from the place, a colour from t, and both where entries composite.
 
 use vtex_format::{
-    CellWord, Entry, EntryKind, Features, Gradient, GradientShape, GradientStop, SpecKey, Spread,
-    VtexFile,
+    CellWord, CurveHeader, Entry, EntryKind, Features, Gradient, GradientShape, GradientStop,
+    SpecKey, Spread, VtexFile,
 };
 use vtex_shaders::cpu::Sampler;
-use vtex_shaders::{PackOptions, pack};
+use vtex_shaders::{FilterMode, PackOptions, pack};
 
-use crate::builder::{paint, push_entries, row_of};
+use crate::builder::{paint, push_entries, push_record, row_of};
+use crate::curves::circle;
 use crate::formula::{self, Rgba, Term};
 use crate::{FILTERS, check};
 
@@ -41,42 +42,6 @@ fn solid_cell(gradient: &Gradient) -> VtexFile {
     file
 }
 
-/// docs/format.md, "Gradients": t, or none.
-fn parameter(shape: &GradientShape, [u, v]: [f64; 2]) -> Option<f64> {
-    match *shape {
-        GradientShape::Linear { t_from_uv } => {
-            let [a, b, c] = t_from_uv.map(f64::from);
-            Some(a * u + b * v + c)
-        }
-        GradientShape::Radial {
-            circle_from_uv,
-            distance,
-            focal_radius,
-        } => {
-            let [a, b, c, d, e, f] = circle_from_uv.map(f64::from);
-            let (x, y) = (a * u + c * v + e, b * u + d * v + f);
-            greatest(x, y, f64::from(distance), f64::from(focal_radius))
-        }
-    }
-}
-
-/// The roots of `(x - t d)^2 + y^2 = (f + t (1 - f))^2`, of which the greatest with a radius that is
-/// not negative counts.
-fn greatest(x: f64, y: f64, d: f64, f: f64) -> Option<f64> {
-    let growth = 1.0 - f;
-    let a = d * d - growth * growth;
-    let b = -2.0 * (x * d + f * growth);
-    let c = x * x + y * y - f * f;
-    let root = (b * b - 4.0 * a * c).sqrt();
-    let roots = if a == 0.0 {
-        [-c / b; 2]
-    } else {
-        [root, -root].map(|root| (root - b) / (2.0 * a))
-    };
-    let sound = roots.into_iter().filter(|t| f + t * growth >= 0.0);
-    sound.max_by(f64::total_cmp)
-}
-
 fn spread(spread: Spread, t: f64) -> f64 {
     match spread {
         Spread::Pad => t,
@@ -90,7 +55,7 @@ fn spread(spread: Spread, t: f64) -> f64 {
 
 /// Straight, sRGB-encoded; `None` too near a jump.
 fn color_at(gradient: &Gradient, uv: [f64; 2]) -> Option<[f32; 4]> {
-    let Some(t) = parameter(&gradient.shape, uv) else {
+    let Some(t) = gradient.shape.t_at(uv) else {
         return Some([0.0; 4]);
     };
     // So far out the colours of a period are as near as roundings of uv.
@@ -259,7 +224,7 @@ fn a_gradient_composites_as_a_colour_does() {
         for i in 0..50_u16 {
             let u = (f32::from(i) + 0.3) / 50.0;
             let middle = color_at(&gradient, [f64::from(u), 0.5]).expect("not at the jump");
-            let expected: Rgba = formula::point(&[term(front), term(middle), term(back)]);
+            let expected: Rgba = formula::shown(&[term(front), term(middle), term(back)]);
             let got = Sampler::new(&words).sample([u, 0.5], [0.0; 4]);
             check(got, expected, 1e-4);
         }
@@ -269,5 +234,65 @@ fn a_gradient_composites_as_a_colour_does() {
     file.entries[2] |= 1 << 27;
     let words = pack(&file, &PackOptions::default());
     let got = Sampler::new(&words).sample([0.9, 0.5], [0.0; 4]);
-    check(got, [0.75; 4], 1e-6);
+    // Packed paints have 16 bits a channel.
+    check(got, [0.75; 4], 1e-5);
+}
+
+/// In footprint mode a gradient is evaluated once a fine cell, at the mean place of the samples there
+/// that see it.
+#[test]
+fn a_footprint_sees_a_gradient_at_the_mean_of_its_samples() {
+    let gradient = Gradient {
+        shape: GradientShape::Linear {
+            t_from_uv: [0.8, -0.5, 0.4],
+        },
+        spread: Spread::Pad,
+        stops: vec![
+            stop(0.0, [1.0, 0.1, 0.0, 1.0]),
+            stop(1.0, [0.2, 0.3, 1.0, 1.0]),
+        ],
+    };
+    let mut file = row_of(1);
+    let entry = Entry {
+        kind: EntryKind::Curves,
+        last: true,
+        opaque: false,
+        index: gradient_paint(&mut file, &gradient),
+        data: push_record(&mut file, CurveHeader::default(), &[], &circle()),
+    };
+    push_entries(&mut file, 0, &[entry]);
+    let words = [FilterMode::Point, FilterMode::Footprint].map(|filter| {
+        let options = PackOptions {
+            filter,
+            halvings: Some(0),
+            ..PackOptions::default()
+        };
+        pack(&file, &options)
+    });
+    let [points, footprints] = words.each_ref().map(|words| Sampler::new(words));
+    let mut partial = 0;
+    for i in 0..400_u16 {
+        let uv = [i % 20, i / 20].map(|k| f32::from(k) / 20.0 + 0.021);
+        let axes = [0.13, 0.05, -0.02, 0.09];
+        let mut places = footprints.places(uv, axes);
+        let all = places.len() as f64;
+        places.retain(|&place| points.sample(place, [0.0; 4])[3] > 0.0);
+        let count = places.len() as f64;
+        let expected = if places.is_empty() {
+            [0.0; 4]
+        } else {
+            let mean = [0, 1].map(|axis| {
+                places
+                    .iter()
+                    .map(|place| f64::from(place[axis]))
+                    .sum::<f64>()
+                    / count
+            });
+            let color = color_at(&gradient, mean).expect("no jumps");
+            formula::linear(color).map(|channel| channel * count / all)
+        };
+        check(footprints.sample(uv, axes), expected, 1e-4);
+        partial += u32::from(count > 0.0 && count < all);
+    }
+    assert!(partial > 50, "{partial}");
 }

@@ -7,6 +7,9 @@ use vtex_shaders::{FilterMode, PackOptions, pack};
 use crate::builder::{image, push_entries, row_of, set_canvas, set_solid};
 use crate::{FILTERS, check, formula, sample};
 
+/// Levels that lookups read finer than their footprint's width.
+const FINER: f64 = 0.75;
+
 /// One white cell over a 16 x 16 chain whose level k is opaque grey of byte `200 - 40 k`.
 fn grey_levels() -> VtexFile {
     let mut file = row_of(1);
@@ -33,7 +36,7 @@ fn minification_fades_from_cells_into_the_chain() {
             let texels = 2.0_f64.powf(f64::from(i) / 10.0 - 2.0);
             let lod = texels.log2();
             let fade = (lod + 1.0).clamp(0.0, 1.0);
-            let chain = level_value(lod.clamp(0.0, 4.0));
+            let chain = level_value((lod - FINER).clamp(0.0, 4.0));
             let expected = 1.0 - fade + fade * chain;
             let got = sample(&file, filter, 0.4, texels as f32 / 16.0);
             check(got, [expected, expected, expected, 1.0], 1e-3);
@@ -100,6 +103,11 @@ fn the_chain_wraps_where_the_address_mode_repeats() {
 
 /// A patch in the right half of the canvas over a grey ground.
 fn patched(alpha: u8) -> VtexFile {
+    patched_as(alpha, false)
+}
+
+/// The same; `opaque`: marked as what hides all behind it.
+fn patched_as(alpha: u8, opaque: bool) -> VtexFile {
     let mut file = row_of(1);
     let rect = [0.5, 0.0, 1.0, 1.0];
     file.images
@@ -113,7 +121,7 @@ fn patched(alpha: u8) -> VtexFile {
         data: 0,
     };
     let list = [
-        entry(EntryKind::Image, false, 0),
+        entry(EntryKind::Image, opaque, 0),
         entry(EntryKind::Full, true, ground),
     ];
     push_entries(&mut file, 0, &list);
@@ -128,14 +136,16 @@ fn patches_composite_like_paints_inside_their_rectangle() {
         0,
         "a patch is no canvas chain"
     );
-    for filter in FILTERS {
-        check(
-            sample(&file, filter, 0.3, 0.01),
-            formula::linear([0.5, 0.5, 0.5, 1.0]),
-            1e-5,
-        );
-        let opaque = [formula::decode(127.0 / 255.0), 0.0, 0.0, 1.0];
-        check(sample(&file, filter, 0.7, 0.01), opaque, 1e-3);
+    // Outside its rectangle an opaque patch hides nothing either.
+    for file in [file, patched_as(255, true)] {
+        for filter in FILTERS {
+            let ground = formula::linear([0.5, 0.5, 0.5, 1.0]);
+            check(sample(&file, filter, 0.3, 0.01), ground, 1e-5);
+            let opaque = [formula::decode(127.0 / 255.0), 0.0, 0.0, 1.0];
+            for width in [0.0, 0.01] {
+                check(sample(&file, filter, 0.7, width), opaque, 1e-3);
+            }
+        }
     }
     let file = patched(128);
     // Stored: linear light, premultiplied, then encoded. Half transparent.
@@ -146,6 +156,140 @@ fn patches_composite_like_paints_inside_their_rectangle() {
     for filter in FILTERS {
         let got = sample(&file, filter, 0.7, 0.01);
         check(got, [expected[0], expected[1], expected[2], 1.0], 1e-3);
+    }
+}
+
+/// One lookup of an image stands for all samples that see it.
+#[test]
+fn a_patch_is_filtered_over_the_whole_footprint() {
+    let mut file = row_of(1);
+    let grey = |level| 200 - 40 * level as u8;
+    file.images
+        .push(image([0.0, 0.0, 1.0, 1.0], [16, 16], |level, _, _| {
+            [grey(level), grey(level), grey(level), 255]
+        }));
+    let entry = Entry {
+        kind: EntryKind::Image,
+        last: true,
+        opaque: false,
+        index: 0,
+        data: 0,
+    };
+    push_entries(&mut file, 0, &[entry]);
+    for i in 0..=40 {
+        let lod = f64::from(i) / 10.0 - 1.0;
+        let width = 2.0_f64.powf(lod) as f32 / 16.0;
+        let expected = level_value((lod - FINER).max(0.0));
+        let got = sample(&file, FilterMode::Footprint, 0.5, width);
+        check(got, [expected, expected, expected, 1.0], 1e-3);
+    }
+}
+
+/// Waves of light, 64 texels of them: direction in radians, length in texels.
+#[derive(Clone, Copy, Debug)]
+struct Waves {
+    turn: f64,
+    length: f64,
+}
+
+impl Waves {
+    /// The mean over the parallelogram with these axes about the middle of the canvas, in texels.
+    fn mean(self, at: [f64; 2], axes: [[f64; 2]; 2]) -> f64 {
+        let along = |v: [f64; 2]| {
+            let (sin, cos) = self.turn.sin_cos();
+            std::f64::consts::TAU / self.length * (v[0] * cos + v[1] * sin)
+        };
+        let blur = |axis| match 0.5 * along(axis) {
+            0.0 => 1.0,
+            half => half.sin() / half,
+        };
+        0.5 + 0.4 * along(at.map(|x| x - 32.0)).cos() * axes.map(blur).iter().product::<f64>()
+    }
+
+    /// A texel that is the mean over its area.
+    fn texel(self, level: u32, x: u32, y: u32) -> [u8; 4] {
+        let side = f64::from(1_u32 << level);
+        let at = [x, y].map(|k| side * (f64::from(k) + 0.5));
+        let mean = self.mean(at, [[side, 0.0], [0.0, side]]);
+        let byte = (formula::encode(mean) * 255.0).round() as u8;
+        [byte, byte, byte, 255]
+    }
+}
+
+/// A canvas image, and an image that an entry shows, both over the whole canvas.
+fn waves(waves: Waves) -> [VtexFile; 2] {
+    let mut canvas = row_of(1);
+    set_solid(&mut canvas, 0, [1.0; 4]);
+    set_canvas(&mut canvas, [64, 64], |level, x, y| {
+        waves.texel(level, x, y)
+    });
+    let mut patch = row_of(1);
+    let texels = image([0.0, 0.0, 1.0, 1.0], [64, 64], |level, x, y| {
+        waves.texel(level, x, y)
+    });
+    patch.images.push(texels);
+    let entry = Entry {
+        kind: EntryKind::Image,
+        last: true,
+        opaque: true,
+        index: 0,
+        data: 0,
+    };
+    push_entries(&mut patch, 0, &[entry]);
+    [canvas, patch]
+}
+
+/// Footprints as a plane at a grazing angle has them: waves across stay, waves along go.
+#[test]
+fn a_long_footprint_is_averaged_along_its_longer_axis_alone() {
+    for turn in [0.0, 0.5, 1.57, 2.4, 3.0] {
+        for ratio in [1.1, 1.5, 2.0, 3.3, 6.0, 8.0] {
+            // Two texels wide; then the same region with axes that are not upright to each other.
+            let (sin, cos) = f64::sin_cos(turn);
+            let [long, short] = [[cos, sin].map(|c| 2.0 * ratio * c), [-2.0 * sin, 2.0 * cos]];
+            let mixed = |a: f64, b: f64| [0, 1].map(|i| a * long[i] + b * short[i]);
+            let half = f64::sqrt(0.5);
+            for axes in [[long, short], [mixed(half, half), mixed(half, -half)]] {
+                let across = Waves {
+                    turn: turn + std::f64::consts::FRAC_PI_2,
+                    length: 8.0,
+                };
+                let along = Waves {
+                    turn,
+                    length: 2.5 * ratio,
+                };
+                for kind in [across, along] {
+                    let expected = kind.mean([32.0; 2], [long, short]);
+                    for file in waves(kind) {
+                        let words = pack(&file, &PackOptions::default());
+                        let footprint = axes.as_flattened();
+                        let footprint = std::array::from_fn(|i| footprint[i] as f32 / 64.0);
+                        let got = Sampler::new(&words).sample([0.5; 2], footprint);
+                        let apart = (f64::from(got[0]) - expected).abs();
+                        assert!(apart < 0.05, "{kind:?} {ratio}: {got:?}, not {expected}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Past eight times longer than wide a footprint counts as wider than it is.
+#[test]
+fn the_longest_footprints_get_wider() {
+    let file = grey_levels();
+    let words = pack(&file, &PackOptions::default());
+    for (long, short) in [
+        (16.0, 2.0),
+        (16.0, 1.0),
+        (16.0, 0.0),
+        (32.0, 4.0),
+        (32.0, 1.0),
+    ] {
+        let [long_uv, short_uv] = [long, short].map(|texels: f64| (texels / 16.0) as f32);
+        let expected = level_value(f64::log2(long / 8.0) - FINER);
+        let got = Sampler::new(&words).sample([0.5; 2], [0.0, long_uv, short_uv, 0.0]);
+        check(got, [expected, expected, expected, 1.0], 1e-3);
     }
 }
 

@@ -9,6 +9,7 @@
 mod address;
 mod builder;
 mod curves;
+mod footprints;
 mod formula;
 mod gradients;
 mod images;

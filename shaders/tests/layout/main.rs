@@ -8,23 +8,15 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use naga::{AddressSpace, Handle, Module, ScalarKind, StorageAccess, Type, TypeInner};
-use vtex_format::{AddressMode, Features, SHADER_ABI, SpecKey};
+use vtex_format::{Features, SHADER_ABI, SpecKey};
 use vtex_shaders::layout::{CONSTANTS, OFFSET_END};
 use vtex_shaders::{BindingSlot, batch_kernel, scene_evaluator};
 use vtex_testing::Frozen;
 
 #[test]
 fn the_gpu_layout_changes_only_with_shader_abi() {
-    let key = SpecKey {
-        abi: SHADER_ABI,
-        features: Features::ALL,
-        address_u: AddressMode::Clamp,
-        address_v: AddressMode::Clamp,
-        texels_per_cell: 8,
-        max_entries: 8,
-        frames: 0,
-        reserved: 0,
-    };
+    let features = Features::ALL;
+    let key = SpecKey { features };
     let batch = batch_kernel(&key);
     let scene = scene_evaluator(Features::ALL, BindingSlot::default());
     let text = [

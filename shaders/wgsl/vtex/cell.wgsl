@@ -1,16 +1,13 @@
-//!use vtex/words
-//!use vtex/footprint
-// The fine cell a lookup falls in.
+//!use vtex/texture
+// The fine cells.
 
-struct VtexCell {
-    word: u32,
-    // Position inside the cell of the file that it is a part of.
-    q: vec2f,
+// Column and row of the fine cell that `p`, in cells, lies in.
+fn vtex_cell_fine(vt: VtexTexture, p: vec2f) -> vec2f {
+    return clamp(floor(p * vt.fine.z), vec2f(0.0), vt.fine.xy - 1.0);
 }
 
-fn vtex_cell(vt: VtexTexture, lookup: VtexLookup) -> VtexCell {
-    let p = lookup.uv * vt.cell_from_uv.xy + vt.cell_from_uv.zw;
-    let part = clamp(floor(p * vt.fine.z), vec2f(0.0), vt.fine.xy - 1.0);
-    let index = u32(part.y) * u32(vt.fine.x) + u32(part.x);
-    return VtexCell(vtex_word(vt, vt.cells + index), p - floor(part * vt.fine.w));
+fn vtex_cell_word(vt: VtexTexture, fine: vec2f) -> u32 {
+    // Through signed integers, which processors convert to at once.
+    let index = i32(fine.y) * i32(vt.fine.x) + i32(fine.x);
+    return vtex_word(vt, vt.cells + bitcast<u32>(index));
 }

@@ -1,24 +1,27 @@
 //!use core/layout
-//!use vtex/footprint
-//!use vtex/msdf
-//!use vtex/curve
-//!use vtex/run
-// The edge of an entry: an MSDF tile or curves.
+//!use vtex/texture
+//!use vtex/samples
+//!use vtex/msdf_edge
+// The samples that an entry covers, where edges are curves or MSDFs.
 
-struct VtexEdge {
-    // The entry's last item and what follows it.
-    item: vec4u,
-    next: u32,
-    // In texels, inside positive; where the entry fills its cell, far inside.
-    distance: f32,
+// An item of the entry.
+fn vtex_edge_wind(samples: VtexSamples, winding: VtexWinding, item: vec4u) -> VtexWinding {
+    return vtex_samples_wind(samples, winding, item);
 }
 
-fn vtex_edge(vt: VtexTexture, first: u32, lookup: VtexLookup) -> VtexEdge {
-    let run = vtex_run(vt, first, vtex_curve_point(vt, lookup.q));
-    let kind = run.item.w & VTEX_ITEM_KIND_MASK;
-    var distance = select(1e9, vtex_run_texels(vt, run), kind == VTEX_ITEM_CURVES);
-    if kind == VTEX_ITEM_MSDF {
-        distance = vtex_msdf_distance(vt, run.item.x, lookup.q);
+// `item` is the entry's last. Of samples that are not in `live` nothing is said.
+fn vtex_edge_covered(
+    vt: VtexTexture, samples: VtexSamples, item: vec4u, winding: VtexWinding, live: u32,
+) -> u32 {
+    switch item.w & VTEX_ITEM_KIND_MASK {
+        case VTEX_ITEM_CURVES: {
+            return vtex_samples_filled(winding, item.w);
+        }
+        case VTEX_ITEM_MSDF: {
+            return vtex_msdf_covered(vt, samples, item.x, 0.0, live);
+        }
+        default: {
+            return VTEX_SAMPLES_EVERY;
+        }
     }
-    return VtexEdge(run.item, run.next, distance);
 }

@@ -1,19 +1,17 @@
 //!use core/layout
-//!use vtex/footprint
-//!use vtex/curve
-//!use vtex/run
-// The edge of an entry where it can be curves alone.
+//!use vtex/texture
+//!use vtex/samples
+// The samples that an entry covers, where edges are curves.
 
-struct VtexEdge {
-    // The entry's last item and what follows it.
-    item: vec4u,
-    next: u32,
-    // In texels, inside positive; where the entry fills its cell, far inside.
-    distance: f32,
+// An item of the entry.
+fn vtex_edge_wind(samples: VtexSamples, winding: VtexWinding, item: vec4u) -> VtexWinding {
+    return vtex_samples_wind(samples, winding, item);
 }
 
-fn vtex_edge(vt: VtexTexture, first: u32, lookup: VtexLookup) -> VtexEdge {
-    let run = vtex_run(vt, first, vtex_curve_point(vt, lookup.q));
-    let curves = (run.item.w & VTEX_ITEM_KIND_MASK) == VTEX_ITEM_CURVES;
-    return VtexEdge(run.item, run.next, select(1e9, vtex_run_texels(vt, run), curves));
+// `item` is the entry's last. Of samples that are not in `live` nothing is said.
+fn vtex_edge_covered(
+    vt: VtexTexture, samples: VtexSamples, item: vec4u, winding: VtexWinding, live: u32,
+) -> u32 {
+    let curves = (item.w & VTEX_ITEM_KIND_MASK) == VTEX_ITEM_CURVES;
+    return select(VTEX_SAMPLES_EVERY, vtex_samples_filled(winding, item.w), curves);
 }

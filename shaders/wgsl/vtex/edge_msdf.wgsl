@@ -1,22 +1,19 @@
 //!use core/layout
-//!use vtex/words
-//!use vtex/footprint
-//!use vtex/msdf
-// The edge of an entry where it can be an MSDF tile alone.
+//!use vtex/texture
+//!use vtex/samples
+//!use vtex/msdf_edge
+// The samples that an entry covers, where edges are MSDFs.
 
-struct VtexEdge {
-    // The entry's last item and what follows it.
-    item: vec4u,
-    next: u32,
-    // In texels, inside positive; where the entry fills its cell, far inside.
-    distance: f32,
+fn vtex_edge_wind(samples: VtexSamples, winding: VtexWinding, item: vec4u) -> VtexWinding {
+    return winding;
 }
 
-fn vtex_edge(vt: VtexTexture, first: u32, lookup: VtexLookup) -> VtexEdge {
-    let item = vtex_word4(vt, first);
-    var distance = 1e9;
+// `item` is the entry's last. Of samples that are not in `live` nothing is said.
+fn vtex_edge_covered(
+    vt: VtexTexture, samples: VtexSamples, item: vec4u, winding: VtexWinding, live: u32,
+) -> u32 {
     if (item.w & VTEX_ITEM_KIND_MASK) == VTEX_ITEM_MSDF {
-        distance = vtex_msdf_distance(vt, item.x, lookup.q);
+        return vtex_msdf_covered(vt, samples, item.x, 0.0, live);
     }
-    return VtexEdge(item, first + VTEX_ITEM_WORDS, distance);
+    return VTEX_SAMPLES_EVERY;
 }

@@ -1,5 +1,5 @@
 //!use core/layout
-//!use vtex/words
+//!use vtex/texture
 // Gradients: a parameter t from the place, then a colour from t.
 
 // Stops at or before t. Offsets stand in groups of four; the last group is filled with numbers

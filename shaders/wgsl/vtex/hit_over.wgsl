@@ -1,49 +1,51 @@
-//!use core/decode
-//!use vtex/footprint
-//!use vtex/paint
+//!use core/color
+//!use core/layout
+//!use vtex/texture
+//!use vtex/lookup
+//!use vtex/samples
+//!use vtex/answer
 //!use vtex/source
-//!use vtex/encoded
-// What hits of a walk show where some are translucent: front to back, sRGB-encoded.
+// What a point lookup meets where some paints are translucent: front to back, sRGB-encoded, and
+// decoded once.
 
 struct VtexHit {
-    // The only one so far, in linear light: it needs no transfer function.
-    only: vec4f,
+    // The samples that the walk goes on with.
+    live: u32,
+    // Entries met, and the last of them where it is the only one.
     count: u32,
+    only: vec4f,
+    // Of all met, premultiplied.
     color: vec4f,
-    // Of a cell of one colour.
-    solid: bool,
-    paint: u32,
 }
 
-fn vtex_hit_solid(vt: VtexTexture, shows: bool, paint: u32, lookup: VtexLookup) -> VtexHit {
-    return VtexHit(vec4f(0.0), 0u, vec4f(0.0), shows, paint);
+fn vtex_hit_start(live: u32) -> VtexHit {
+    return VtexHit(live, 0u, vec4f(0.0), vec4f(0.0));
 }
 
-// Takes in an entry that `covers` the lookup or not; whether what lies behind it can show.
-fn vtex_hit(
-    vt: VtexTexture,
-    hit: ptr<function, VtexHit>,
-    covers: bool,
-    head: u32,
-    lookup: VtexLookup,
-) -> bool {
-    if covers {
-        let value = vtex_source(vt, head, lookup);
-        if value.a > 0.0 {
-            (*hit).only = value;
-            (*hit).count += 1u;
-            (*hit).color += (1.0 - (*hit).color.a) * vtex_encoded(vt, head, value);
+fn vtex_hit_draw(
+    vt: VtexTexture, lookup: VtexLookup, hit: VtexHit, samples: VtexSamples, covered: u32, head: u32,
+) -> VtexHit {
+    var next = hit;
+    if (covered & hit.live) != 0u {
+        let shown = vtex_source(vt, lookup, head, samples.uv);
+        if shown.encoded.a > 0.0 {
+            next.count += 1u;
+            next.only = shown.linear;
+            next.color += (1.0 - hit.color.a) * shown.encoded;
+            // An opaque image shows nothing, and hides nothing, outside its rectangle.
+            let ends = next.color.a >= 1.0 || (head & VTEX_ITEM_OPAQUE_BIT) != 0u;
+            next.live = select(hit.live, 0u, ends);
         }
     }
-    return (*hit).color.a < 1.0;
+    return next;
 }
 
-fn vtex_hit_value(vt: VtexTexture, hit: VtexHit, lookup: VtexLookup) -> vec4f {
-    if hit.count > 1u {
-        return vtex_color_decode_premultiplied(hit.color);
+fn vtex_hit_answer(
+    vt: VtexTexture, lookup: VtexLookup, hit: VtexHit, samples: VtexSamples,
+) -> VtexAnswer {
+    // A single one needs no transfer function where its linear light is known.
+    if hit.count > 1u || hit.only.a < 0.0 {
+        return VtexAnswer(vtex_color_decode_premultiplied(hit.color), VTEX_SAMPLES_EVERY);
     }
-    if hit.solid {
-        return vtex_paint_solid(vt, hit.paint);
-    }
-    return hit.only;
+    return VtexAnswer(hit.only, VTEX_SAMPLES_EVERY);
 }

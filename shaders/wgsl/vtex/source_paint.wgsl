@@ -1,8 +1,19 @@
 //!use core/layout
-//!use vtex/footprint
-//!use vtex/fill
-// Colour of an entry where all are paints.
+//!use vtex/texture
+//!use vtex/lookup
+//!use vtex/paint_words
+// The colour of an entry, where all are solid paints.
 
-fn vtex_source(vt: VtexTexture, head: u32, lookup: VtexLookup) -> VtexValue {
-    return vtex_fill(vt, head & VTEX_ITEM_INDEX_MASK, lookup);
+struct VtexSource {
+    // sRGB-encoded, as colours are composited, premultiplied.
+    encoded: vec4f,
+    // In linear light, premultiplied; its alpha is negative where it is not known.
+    linear: vec4f,
+}
+
+fn vtex_source(vt: VtexTexture, lookup: VtexLookup, head: u32, uv: vec2f) -> VtexSource {
+    let paint = vtex_paint_words(vt, head & VTEX_ITEM_INDEX_MASK);
+    let straight = vtex_paint_unpack(paint.zw);
+    let encoded = vec4f(straight.rgb * straight.a, straight.a);
+    return VtexSource(encoded, vtex_paint_unpack(paint.xy));
 }

@@ -6,6 +6,9 @@
 struct VtexTexture {
     // First word, a multiple of four.
     first: u32,
+    // Bits VTEX_FEATURE_, then the address modes along u and v.
+    features: u32,
+    address: vec2u,
     // Cells a unit of uv along both axes, then the lattice origin in cells.
     cell_from_uv: vec4f,
     // Columns and rows of fine cells, fine cells along a cell, and its inverse: a power of two.
@@ -28,11 +31,14 @@ struct VtexTexture {
 // `first`: the texture's first word in the buffer.
 fn vtex_texture(first: u32) -> VtexTexture {
     let group = first >> 2u;
+    let about = vtex_words[group];
     let measures = vtex_words[group + VTEX_HEADER_CURVE_UNITS / 4u];
     let places = vtex_words[group + VTEX_HEADER_CELLS / 4u];
     let images = vtex_words[group + VTEX_HEADER_IMAGES / 4u];
     return VtexTexture(
         first,
+        about.y,
+        about.zw,
         bitcast<vec4f>(vtex_words[group + VTEX_HEADER_CELL_FROM_UV / 4u]),
         bitcast<vec4f>(vtex_words[group + VTEX_HEADER_FINE / 4u]),
         bitcast<vec2f>(measures.xy),
@@ -46,4 +52,30 @@ fn vtex_texture(first: u32) -> VtexTexture {
         images.yz,
         images.w,
     );
+}
+
+fn vtex_word(vt: VtexTexture, index: u32) -> u32 {
+    let word = vt.first + index;
+    return vtex_words[word >> 2u][word & 3u];
+}
+
+fn vtex_word2(vt: VtexTexture, index: u32) -> vec2u {
+    return vec2u(vtex_word(vt, index), vtex_word(vt, index + 1u));
+}
+
+// Four words in one load: `index` is a multiple of four.
+fn vtex_word4(vt: VtexTexture, index: u32) -> vec4u {
+    return vtex_words[(vt.first + index) >> 2u];
+}
+
+fn vtex_word_float(vt: VtexTexture, index: u32) -> f32 {
+    return bitcast<f32>(vtex_word(vt, index));
+}
+
+fn vtex_word_float2(vt: VtexTexture, index: u32) -> vec2f {
+    return bitcast<vec2f>(vtex_word2(vt, index));
+}
+
+fn vtex_word_float4(vt: VtexTexture, index: u32) -> vec4f {
+    return bitcast<vec4f>(vtex_word4(vt, index));
 }

@@ -81,7 +81,7 @@ pub struct Wants {
 }
 
 /// Records and paints of a random drawing.
-const COUNT: u32 = 8;
+pub(super) const COUNT: u32 = 8;
 
 fn index(r: &mut Random) -> usize {
     r.below(COUNT) as usize

@@ -2,17 +2,15 @@
 
 use vtex_format::VtexFile;
 use vtex_runtime::{BatchQuery, BatchSampler, Gpu};
-use vtex_shaders::cpu;
-use vtex_tests::colors::differing;
+use vtex_tests::parity::{Parity, Subject};
 use vtex_truth::picture::Shot;
 use vtex_truth::texture::{FilterMode, Shooter, canvas_options};
-
-/// Largest difference of a channel, linear light, that counts as equal.
-const SAME: f32 = 2.0 / 255.0;
 
 /// A file packed for one filter mode, for both evaluators.
 pub(crate) struct Eyes {
     words: Vec<u32>,
+    /// Of the key that it is looked up with.
+    pub(crate) features: u32,
     /// `None` with `VTEX_GPU=off`.
     gpu: Option<Box<BatchSampler>>,
 }
@@ -21,6 +19,8 @@ pub(crate) struct Eyes {
 pub(crate) struct Answers {
     pub(crate) twin: Vec<[f32; 4]>,
     pub(crate) gpu: Option<Vec<[f32; 4]>>,
+    /// How they differ; of no lookups without a GPU.
+    pub(crate) parity: Parity,
 }
 
 impl Eyes {
@@ -32,29 +32,28 @@ impl Eyes {
         };
         Self {
             words: vtex_shaders::pack(file, &pack),
+            features: vtex_shaders::spec_key(file, &pack).features,
             gpu: gpu.map(sampler),
         }
     }
 
+    fn subject(&self) -> Subject<'_> {
+        Subject {
+            words: &self.words,
+            features: self.features,
+        }
+    }
+
     pub(crate) fn look_up_twin(&self, queries: &[BatchQuery]) -> Vec<[f32; 4]> {
-        let twin = cpu::Sampler::new(&self.words);
-        let look = |query: &BatchQuery| twin.sample(query.uv, query.footprint);
-        queries.iter().map(look).collect()
+        self.subject().twin(queries)
     }
 
     pub(crate) fn look_up(&self, queries: &[BatchQuery]) -> Answers {
-        Answers {
-            twin: self.look_up_twin(queries),
-            gpu: self.gpu.as_ref().map(|gpu| gpu.sample(queries).unwrap()),
-        }
-    }
-}
-
-impl Answers {
-    /// Positions of the lookups that GPU and twin answer differently.
-    pub(crate) fn apart(&self) -> Vec<usize> {
-        let gpu = self.gpu.as_deref().unwrap_or(&self.twin);
-        differing(&self.twin, gpu, SAME)
+        let twin = self.look_up_twin(queries);
+        let gpu = self.gpu.as_ref().map(|gpu| gpu.sample(queries).unwrap());
+        let compare = |gpu: &Vec<_>| self.subject().compare(queries, &twin, gpu);
+        let parity = gpu.as_ref().map_or_else(Parity::default, compare);
+        Answers { twin, gpu, parity }
     }
 }
 

@@ -7,8 +7,9 @@ use vtex_baker::{BakeConfig, Resources, bake};
 use vtex_format::{Limits, VtexFile, validate};
 use vtex_runtime::Gpu;
 use vtex_tests::fonts;
+use vtex_tests::parity::{Parities, Parity};
 use vtex_truth::comparison::EdgeFinder;
-use vtex_truth::picture::{Picture, Shot, View, difference, difference_picture, fit_size};
+use vtex_truth::picture::{POINTS, Picture, Shot, View, difference, difference_picture, fit_size};
 use vtex_truth::reference::{Edges, Reference, SUPERSAMPLES};
 use vtex_truth::texture::FilterMode;
 
@@ -38,8 +39,8 @@ pub(crate) struct Found {
     pub(crate) mips: Picture,
     /// PSNR of that, dB.
     pub(crate) mips_db: f64,
-    /// How random lookups of GPU and twin differ.
-    pub(crate) strays: Option<String>,
+    /// How GPU and twin differ in the lookups of the views and in random ones.
+    pub(crate) parities: Parities,
 }
 
 impl Found {
@@ -61,9 +62,8 @@ pub(crate) struct Seen {
     pub(crate) twin: Picture,
     /// PSNR of the twin's picture, and of the GPU's where there is one, dB.
     pub(crate) psnr_db: Vec<f64>,
-    pub(crate) lookups: usize,
-    /// Lookups that GPU and twin answer differently.
-    pub(crate) apart: usize,
+    /// How GPU and twin differ.
+    parity: Parity,
 }
 
 impl Seen {
@@ -111,15 +111,23 @@ pub(crate) fn look(svg: &[u8], fonts: Fonts, gpu: Option<&Gpu>) -> Result<Found,
     let close = finder.window(ZOOMS[1], 0).unwrap();
     let eyes = Eyes::new(gpu, &file, FilterMode::Point);
     let mips = mips(&eyes, size_px);
+    let views = [
+        see(&eyes, ZOOMS[0], View::WHOLE, whole.clone()),
+        see(&eyes, ZOOMS[1], close, truth(close, close_samples)),
+    ];
+    let mut parities = Parities::default();
+    if let Some(gpu) = gpu {
+        parities = lookups::compare(gpu, &file, &eyes);
+        for view in &views {
+            parities.add(eyes.features, view.parity);
+        }
+    }
     Ok(Found {
         invalid: invalid(&file, &bytes),
         mips_db: difference(&whole, &mips).psnr_db,
         mips,
-        views: [
-            see(&eyes, ZOOMS[0], View::WHOLE, whole),
-            see(&eyes, ZOOMS[1], close, truth(close, close_samples)),
-        ],
-        strays: gpu.and_then(|gpu| lookups::compare(gpu, &file, &eyes).err()),
+        views,
+        parities,
         file,
     })
 }
@@ -144,6 +152,7 @@ fn mips(eyes: &Eyes, size_px: [u32; 2]) -> Picture {
         view: View::WHOLE,
         size_px,
         spp: SPP,
+        region_uv: POINTS,
     };
     picture(shot, &eyes.look_up_twin(&queries(shot)))
 }
@@ -154,6 +163,7 @@ fn see(eyes: &Eyes, zoom: f64, view: View, truth: Picture) -> Seen {
         view,
         size_px: truth.size_px,
         spp: SPP,
+        region_uv: POINTS,
     };
     let mut queries = queries(shot);
     for query in &mut queries {
@@ -170,8 +180,7 @@ fn see(eyes: &Eyes, zoom: f64, view: View, truth: Picture) -> Seen {
         truth,
         twin,
         psnr_db,
-        lookups: queries.len(),
-        apart: answers.apart().len(),
+        parity: answers.parity,
     }
 }
 

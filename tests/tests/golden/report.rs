@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
+use vtex_tests::parity::Parities;
+
 use crate::table;
 use crate::verdict::Verdict;
 
@@ -60,6 +62,9 @@ fn print_worst(verdicts: &[Verdict]) {
     for verdict in verdicts.iter().take(WORST) {
         println!("  {}", verdict.line());
     }
+    let parities = verdicts.iter().map(|verdict| verdict.parities);
+    let parities = parities.fold(Parities::default(), Parities::and);
+    print!("GPU and twin, largest differences of all cases:\n{parities}");
 }
 
 fn figures(verdicts: &[Verdict]) -> String {

@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::look::Found;
-use crate::table::Expected;
+use vtex_tests::parity::Parities;
 use vtex_truth::texture::patch_cover;
 
-/// Share of lookups that GPU and twin may answer differently: roundings at edges.
-const APART_SHARE: f64 = 1e-4;
+use crate::look::Found;
+use crate::table::Expected;
 
 /// What a case is checked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -64,6 +63,8 @@ pub(crate) struct Verdict {
     pub(crate) psnr_db: [f64; 3],
     /// How far above its bounds the worst of them is, dB.
     pub(crate) margin_db: f64,
+    /// How GPU and twin differ.
+    pub(crate) parities: Parities,
     /// Checks that failed, with what was found.
     failed: BTreeMap<Check, String>,
     /// What of that, or of what did not fail, was not expected; empty when all is well.
@@ -75,6 +76,7 @@ impl Verdict {
         let mut failed = BTreeMap::new();
         let mut psnr_db = [f64::NAN; 3];
         let mut margin_db = f64::NEG_INFINITY;
+        let mut parities = Parities::default();
         match found {
             Err(why) => _ = failed.insert(Check::Bake, why.to_owned()),
             Ok(found) => {
@@ -84,6 +86,7 @@ impl Verdict {
                 margin_db = margins
                     .map(|(db, bar)| db - bar)
                     .fold(f64::INFINITY, f64::min);
+                parities = found.parities;
                 failed = failures(expected, found, psnr_db);
             }
         }
@@ -93,6 +96,7 @@ impl Verdict {
             name: expected.name.clone(),
             psnr_db,
             margin_db,
+            parities,
             failed,
             surprises,
         }
@@ -129,13 +133,8 @@ fn failures(expected: &Expected, found: &Found, psnr_db: [f64; 3]) -> BTreeMap<C
             failed.insert(check, format!("{db:.1} dB, below {least}"));
         }
     }
-    if let Some(why) = &found.strays {
-        failed.insert(Check::Gpu, why.clone());
-    }
-    let apart: usize = found.views.iter().map(|view| view.apart).sum();
-    let lookups: usize = found.views.iter().map(|view| view.lookups).sum();
-    if apart as f64 > APART_SHARE * lookups as f64 {
-        failed.insert(Check::Gpu, format!("{apart} of {lookups} lookups differ"));
+    if let Err(why) = found.parities.check() {
+        failed.insert(Check::Gpu, why);
     }
     let provenance = found.file.provenance.as_ref();
     let warnings = provenance.map_or(&[][..], |provenance| &provenance.warnings);

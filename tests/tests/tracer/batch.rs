@@ -1,6 +1,6 @@
 //! Lookups through [`BatchSampler`] and whose shader answers them.
 
-use vtex_format::{SHADER_ABI, VtexFile};
+use vtex_format::{Features, SHADER_ABI, SpecKey, VtexFile};
 use vtex_runtime::{BatchQuery, BatchSampler, GpuVtex, LoadOptions, RuntimeError, Trust};
 
 use super::{BLUE, CLEAR, GREEN, RED, gpu, quarters};
@@ -90,22 +90,21 @@ fn a_trusted_file_runs_its_own_kernel() {
     assert_eq!(notices, 0, "its kernel is accepted");
     assert!(ours == theirs, "both kernels give the same colours");
 
-    // A kernel that answers something else shows that it is the file's which runs.
+    // A kernel that answers something else shows that it is the file's which runs: one that sees no
+    // outlines takes all that a cell lists for covered.
     let mut foreign = file.clone();
-    foreign.shader = vtex_baker::bake(
-        svg,
-        &vtex_baker::BakeConfig {
-            mask: true,
-            ..Default::default()
-        },
-        &Default::default(),
-    )
-    .unwrap()
-    .shader;
+    foreign.shader = vtex_shaders::shader_blob(&SpecKey {
+        features: Features::LISTS,
+    })
+    .unwrap();
     assert!(sample(&foreign, Trust::Regenerate) == (ours.clone(), 1));
-    let (masked, notices) = sample(&foreign, Trust::File);
+    let (blunt, notices) = sample(&foreign, Trust::File);
     assert_eq!(notices, 1, "a text that is not the key's is told");
-    assert!(masked.contains(&[1.0; 4]), "the file's kernel runs");
+    let covered = |colors: &[[f32; 4]]| colors.iter().filter(|color| [RED].contains(color)).count();
+    assert!(
+        covered(&blunt) > covered(&ours),
+        "the file's kernel runs: there is more of the disc"
+    );
 }
 
 #[test]

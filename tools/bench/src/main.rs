@@ -1,137 +1,199 @@
 //! `vtex-bench`: how long bakes, lookups and rays take on this machine, compared with their rivals.
 
+mod args;
+mod isa;
 mod report;
 mod subject;
 mod tables;
 mod timing;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
-use anyhow::{Result, bail};
-use clap::{Parser, ValueEnum};
+use anyhow::{Context as _, Result, bail};
+use clap::Parser as _;
+use vtex_baker::Resources;
 
+use crate::args::{Args, Part};
 use crate::report::Report;
-use crate::subject::{Subject, find, system_fonts};
+use crate::subject::{Subject, bake, find, system_fonts};
 use crate::timing::{Device, Effort, Machine};
 
-/// Times the stages of bakes, lookups per second by filter mode, and rays per second, and prints the
-/// machine and the adapter they ran on.
-///
-/// Run it as `cargo run --release -p vtex-bench`. After one warm-up run, which also compiles the
-/// shaders, each round runs all trials of a table once, in turn. A figure is the median of the
-/// rounds with its range in brackets; `x` is its speed as a multiple of the table's baseline: the
-/// median of the ratios within rounds. On a busy or shared machine rely on the ratios only.
-#[derive(Debug, Parser)]
-#[command(version)]
-struct Args {
-    /// SVG files. The default is the samples of `tests/data/svg/paper` and, if there is a corpus
-    /// (`VTEX_CORPUS`, else `../shared/corpus`), its folder `paper5`.
-    files: Vec<PathBuf>,
-    /// Measure only these parts.
-    #[arg(long, value_delimiter = ',')]
-    only: Vec<Part>,
-    /// Rounds after the warm-up.
-    #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..))]
-    rounds: u16,
-    /// Lookups per run on the GPU, in units of 2^18 (one window of 512 x 512).
-    #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..=16))]
-    windows: u16,
-    /// Write the tables as Markdown.
-    #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
-    /// Only rasterise the one SVG file to this PNG, with 4096 pixels along its longer side and on one
-    /// thread, and print the milliseconds of parsing, rendering, encoding and writing. The part
-    /// `processes` runs this program so, as the rival of `vtex bake`.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["only", "markdown", "json"])]
-    png: Option<PathBuf>,
-    /// Write everything as JSON.
-    #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
-}
-
-/// What to measure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Part {
-    /// Bake stages of each file.
-    Bake,
-    /// Lookups by the CPU twin.
-    Cpu,
-    /// Lookups on the GPU.
-    Gpu,
-    /// Rays of the path tracer.
-    Rays,
-    /// Bytes of each file and of its rivals.
-    Sizes,
-    /// Whole processes: `vtex bake`, which must be built in the same folder as this program, and
-    /// resvg to a PNG. Not part of the default.
-    Processes,
-}
+/// How much of a run with `--card` has passed when the part begins no more files: less than five
+/// minutes in all, with time for the last file.
+const PARITY_ENDS: Duration = Duration::from_secs(120);
+const LOOKUPS_END: Duration = Duration::from_secs(200);
+const RAYS_END: Duration = Duration::from_secs(260);
+/// Graphics cards take a while to raise their clock.
+const CARD_WARM_UP: Duration = Duration::from_millis(150);
 
 fn main() -> Result<()> {
     let args = Args::parse();
+    if args.isa_compile {
+        return isa::serve();
+    }
     if let Some(png) = &args.png {
         let [svg] = args.files.as_slice() else {
             bail!("--png takes one SVG file");
         };
         return tables::rasterise_to_png(svg, png);
     }
-    let wanted = |part| args.only.is_empty() || args.only.contains(&part);
-    let effort = Effort {
-        rounds: usize::from(args.rounds),
-        gpu_lookups: usize::from(args.windows) << 18,
-        cpu_lookups: 1 << 18,
-    };
-    let paths = find(&args.files)?;
-    let resources = system_fonts();
-    let machine = Machine::detect();
-    let cores = machine.cores();
-    let device = (wanted(Part::Gpu) || wanted(Part::Rays))
+    let needs_device = [Part::Gpu, Part::Rays, Part::Parity].map(|part| args.wants(part));
+    let device = needs_device
+        .contains(&true)
         .then(Device::open)
         .transpose()?;
-    let mut report = Report::begin(machine, device.as_ref(), resources.fonts.len())?;
+    if let Some(device) = device
+        .as_ref()
+        .filter(|_| args.card && !args.allow_software)
+    {
+        device.refuse_software()?;
+    }
+    let resources = system_fonts();
+    let mut report = Report::begin(Machine::detect(), device.as_ref(), resources.fonts.len())?;
+    let mut run = Run {
+        effort: effort(&args),
+        start: Instant::now(),
+        paths: find(&args.files)?,
+        resources,
+        args,
+    };
+    run.measure(device.as_ref(), &mut report)?;
+    let [markdown, json] = run.args.outputs();
+    report.finish(markdown.as_deref(), json.as_deref())
+}
 
-    if wanted(Part::Bake) {
-        report.add(tables::stages_table(&paths, &resources, 1, effort.rounds)?)?;
+fn effort(args: &Args) -> Effort {
+    let [rounds, windows] = match args.card {
+        true => [7, 16],
+        false => [5, 4],
+    };
+    Effort {
+        rounds: usize::from(args.rounds.unwrap_or(rounds)),
+        gpu_lookups: usize::from(args.windows.unwrap_or(windows)) << 18,
+        cpu_lookups: 1 << 18,
+        warm_up: if args.card {
+            CARD_WARM_UP
+        } else {
+            Duration::ZERO
+        },
+        deadline: None,
+    }
+}
+
+/// What is measured, and on what.
+struct Run {
+    args: Args,
+    effort: Effort,
+    start: Instant,
+    paths: Vec<PathBuf>,
+    resources: Resources,
+}
+
+impl Run {
+    fn measure(&mut self, device: Option<&Device>, report: &mut Report) -> Result<()> {
+        let (paths, resources) = (&self.paths, &self.resources);
+        if self.args.wants(Part::Bake) {
+            self.bakes(report)?;
+        }
+        if self.args.wants(Part::Sizes) {
+            report.add_all(tables::size_tables(paths, resources)?)?;
+        }
+        if self.args.wants(Part::Processes) {
+            report.add_all(tables::process_tables(paths, self.effort.rounds)?)?;
+        }
+        if self.args.wants(Part::Isa) {
+            self.instruction_sets(report)?;
+        }
+        let lookups = [Part::Cpu, Part::Gpu, Part::Rays, Part::Parity];
+        if !lookups.map(|part| self.args.wants(part)).contains(&true) {
+            return Ok(());
+        }
+        let subjects: Vec<Subject> = paths
+            .iter()
+            .map(|path| Subject::bake(path, resources))
+            .collect::<Result<_>>()?;
+        if self.args.wants(Part::Cpu) {
+            self.twin(&subjects, report)?;
+        }
+        match device {
+            Some(device) => self.gpu(device, &subjects, report),
+            None => Ok(()),
+        }
+    }
+
+    fn bakes(&self, report: &mut Report) -> Result<()> {
+        let (paths, resources, rounds) = (&self.paths, &self.resources, self.effort.rounds);
+        let cores = report.machine().cores();
+        report.add(tables::stages_table(paths, resources, 1, rounds)?)?;
         if cores > 1 {
-            report.add(tables::stages_table(
-                &paths,
-                &resources,
-                cores,
-                effort.rounds,
+            report.add(tables::stages_table(paths, resources, cores, rounds)?)?;
+        }
+        Ok(())
+    }
+
+    /// Of the files' feature sets only when the user named files.
+    fn instruction_sets(&self, report: &mut Report) -> Result<()> {
+        let named: &[PathBuf] = if self.args.card {
+            &[]
+        } else {
+            &self.args.files
+        };
+        let bake = |path: &PathBuf| bake(path, &self.resources);
+        let files: Vec<_> = named.iter().map(bake).collect::<Result<_>>()?;
+        let done = tables::add_isa_tables(report, &self.args.chips, &files);
+        match self.args.only.as_slice() {
+            [Part::Isa] => done.context("the only part asked for gave no table"),
+            _ => done.or_else(|problem| report.say(&format!("No part isa: {problem:#}."))),
+        }
+    }
+
+    fn twin(&self, subjects: &[Subject], report: &mut Report) -> Result<()> {
+        let cores = report.machine().cores();
+        report.add(tables::count_table(subjects, self.effort))?;
+        report.add_all(tables::cpu_tables(subjects, 1, self.effort)?)?;
+        if cores > 1 {
+            report.add_all(tables::cpu_tables(subjects, cores, self.effort)?)?;
+        }
+        Ok(())
+    }
+
+    fn gpu(&self, device: &Device, subjects: &[Subject], report: &mut Report) -> Result<()> {
+        if self.args.wants(Part::Parity) {
+            let effort = self.until(PARITY_ENDS);
+            report.add(tables::parity_table(device, subjects, effort)?)?;
+        }
+        if self.args.wants(Part::Gpu) {
+            let effort = self.until(LOOKUPS_END);
+            tables::check_queries(device)?;
+            report.add(tables::sfg22_table(device, effort)?)?;
+            report.add(tables::minified_table(device, effort)?)?;
+            report.add(tables::fetch_table(device, effort)?)?;
+            report.add_all(tables::gpu_tables(device, subjects, effort)?)?;
+        }
+        if self.args.wants(Part::Rays) {
+            let effort = self.until(RAYS_END);
+            let subjects: Vec<(&Path, &Subject)> = self
+                .paths
+                .iter()
+                .map(PathBuf::as_path)
+                .zip(subjects)
+                .collect();
+            report.add(tables::rays_table(
+                device,
+                &subjects,
+                &self.resources,
+                effort,
             )?)?;
         }
+        Ok(())
     }
-    if wanted(Part::Sizes) {
-        report.add_all(tables::size_tables(&paths, &resources)?)?;
-    }
-    if args.only.contains(&Part::Processes) {
-        report.add_all(tables::process_tables(&paths, effort.rounds)?)?;
-    }
-    let subjects: Vec<Subject> = match wanted(Part::Cpu) || wanted(Part::Gpu) || wanted(Part::Rays)
-    {
-        true => paths
-            .iter()
-            .map(|path| Subject::bake(path, &resources))
-            .collect::<Result<_>>()?,
-        false => Vec::new(),
-    };
-    if wanted(Part::Cpu) {
-        report.add(tables::count_table(&subjects, effort))?;
-        report.add_all(tables::cpu_tables(&subjects, 1, effort)?)?;
-        if cores > 1 {
-            report.add_all(tables::cpu_tables(&subjects, cores, effort)?)?;
+
+    /// The effort, with a deadline after `limit` of the whole run in the one mode that has one.
+    fn until(&self, limit: Duration) -> Effort {
+        Effort {
+            deadline: self.args.card.then(|| self.start + limit),
+            ..self.effort
         }
     }
-    if let Some(device) = device.as_ref().filter(|_| wanted(Part::Gpu)) {
-        tables::check_queries(device)?;
-        report.add_all(tables::gpu_tables(device, &subjects, effort)?)?;
-        report.add(tables::sfg22_table(device, effort)?)?;
-        report.add(tables::minified_table(device, effort)?)?;
-        report.add(tables::fetch_table(device, effort)?)?;
-    }
-    if let Some(device) = device.as_ref().filter(|_| wanted(Part::Rays)) {
-        let subjects: Vec<(PathBuf, Subject)> = paths.into_iter().zip(subjects).collect();
-        report.add(tables::rays_table(device, &subjects, &resources, effort)?)?;
-    }
-    report.finish(args.markdown.as_deref(), args.json.as_deref())
 }

@@ -11,14 +11,16 @@
 //! use vtex_baker::{BakeConfig, Resources, bake};
 //! use vtex_truth::comparison::{Comparison, Terms};
 //! use vtex_truth::reference::{Edges, Reference};
-//! use vtex_truth::texture::{FilterMode, Shooter, canvas_options};
+//! use vtex_truth::texture::{FilterMode, Shooter, canvas_options, region_uv};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let svg = b"<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 8 8'><path d='M1 1H6V7z'/></svg>";
 //! let file = bake(svg, &BakeConfig::default(), &Resources::default())?;
 //! let reference = Reference::parse(svg, Default::default(), Edges::Crisp)?;
-//! let terms = Terms { longer_px: 64, spp: 16, windows: 1, mask: false };
-//! let shooter = Shooter::on_cpu(&file, canvas_options(FilterMode::Point));
+//! let filter = FilterMode::Point;
+//! let region_uv = region_uv(&file, filter);
+//! let terms = Terms { longer_px: 64, spp: 16, region_uv, windows: 1, mask: false };
+//! let shooter = Shooter::on_cpu(&file, canvas_options(filter));
 //! let report = Comparison::new(&reference, terms)?.measure(8.0, |shot| shooter.shoot(shot))?;
 //! assert!(report.worst().difference.psnr_db > 30.0);
 //! # Ok(())

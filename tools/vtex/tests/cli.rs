@@ -238,6 +238,10 @@ fn usage_errors_are_1() {
         "two inputs",
     );
     bench.fails(&["render", "square.svg", "-o", "x.jpg"], 1, ".exr");
+    for mode in ["curves", "raster"] {
+        let outlined = ["bake", "square.svg", "-o", "x", "--outline", "--mode", mode];
+        bench.fails(&outlined, 1, "outline needs MSDFs");
+    }
     bench.fails(
         &["bake", "square.svg", "-o", "x", "--error", "0"],
         1,

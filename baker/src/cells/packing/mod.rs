@@ -34,8 +34,8 @@ pub(crate) fn pack_items(
     merge: bool,
 ) -> Packing {
     // Shapes of one rank share MSDF tiles and curve records. In a tile no texel may lie within half
-    // the range of two shapes, because it stores one distance. In a record only the ramps must not
-    // overlap: each reaches one margin outwards.
+    // the range of two shapes, because it stores one distance. In a record shapes only must not overlap;
+    // two margins are more than that takes.
     let shapes = || placed.iter().filter(|item| item.is_shape());
     let reach = if shapes().all(Placed::is_curves) {
         2.0 * scales.distances.margin

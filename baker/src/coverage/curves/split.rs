@@ -1,9 +1,8 @@
 //! Splitting a cell with more segments than a record holds: into horizontal strips, one record
 //! each.
 //!
-//! A strip's record is empty above and below the strip, so the union of all strips is the shape.
-//! For point lookups this is exact. The ramp of a lookup with a footprint does not see the edges of
-//! other strips, so coverage is slightly off within a ramp of the border between two strips.
+//! A strip's record is empty above and below the strip, so the union of all strips is the shape, and
+//! a sample lies in one strip at most: lookups see no border between two strips.
 
 use std::collections::BTreeMap;
 

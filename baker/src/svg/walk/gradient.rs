@@ -135,19 +135,8 @@ fn solid(stops: &[GradientStop]) -> Option<Paint> {
 
 /// The gradient, or a solid paint if it has one colour everywhere.
 fn finished(shape: GradientShape, spread: Spread, stops: Vec<GradientStop>) -> Option<Paint> {
-    let finite = match shape {
-        GradientShape::Linear { t_from_uv } => t_from_uv.iter().all(|n| n.is_finite()),
-        GradientShape::Radial {
-            circle_from_uv,
-            distance,
-            focal_radius,
-        } => {
-            let mut numbers = circle_from_uv.iter().chain([&distance, &focal_radius]);
-            numbers.all(|n| n.is_finite())
-        }
-    };
     // A gradient too short for f32 numbers has only its last colour.
-    if !finite {
+    if !shape.is_sound() {
         return solid(&stops);
     }
     let one_color = stops.windows(2).all(|pair| pair[0].color == pair[1].color);

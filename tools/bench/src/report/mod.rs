@@ -23,6 +23,7 @@ pub(crate) struct Report {
     start: Instant,
     markdown: String,
     tables: Vec<Table>,
+    remarks: Vec<String>,
 }
 
 impl Report {
@@ -34,6 +35,7 @@ impl Report {
             start: Instant::now(),
             markdown: String::new(),
             tables: Vec::new(),
+            remarks: Vec::new(),
             machine,
         };
         let mut lines = report.machine.lines();
@@ -44,6 +46,18 @@ impl Report {
             .map(|(name, value)| format!("- {name}: {value}\n"));
         report.print(&lines.collect::<String>())?;
         Ok(report)
+    }
+
+    /// The machine that it runs on.
+    pub(crate) fn machine(&self) -> &Machine {
+        &self.machine
+    }
+
+    /// Prints a sentence and keeps it.
+    pub(crate) fn say(&mut self, sentence: &str) -> Result<()> {
+        self.print(&format!("\n{sentence}\n"))?;
+        self.remarks.push(sentence.to_owned());
+        Ok(())
     }
 
     /// Prints a table and keeps it.
@@ -81,9 +95,12 @@ impl Report {
 
     fn to_json(&self) -> Value {
         json!({
+            "version": env!("CARGO_PKG_VERSION"),
             "machine": self.machine.to_json(),
             "adapter": self.adapter,
             "load_average": self.loads,
+            "seconds": self.start.elapsed().as_secs_f64(),
+            "remarks": self.remarks,
             "tables": self.tables.iter().map(Table::to_json).collect::<Vec<_>>(),
         })
     }

@@ -46,12 +46,9 @@ impl Subject {
     /// Reads, bakes and rasterises a file.
     pub(crate) fn bake(path: &Path, resources: &Resources) -> Result<Self> {
         let name = name(path);
-        let svg = read(path)?;
-        let fail = || format!("cannot bake {name}");
-        let config = BakeConfig::default();
-        let file =
-            vtex_baker::bake_observed(&svg, &config, resources, &|_| ()).with_context(fail)?;
-        let raster = rasterise(&svg, resources, RASTER_SIZE).with_context(fail)?;
+        let file = bake(path, resources)?;
+        let raster = rasterise(&read(path)?, resources, RASTER_SIZE)
+            .with_context(|| format!("cannot rasterise {name}"))?;
         let screen = Screen::new(file.meta.canvas_size);
         let busy_corner = busiest(&file, screen);
         Ok(Self {
@@ -84,6 +81,13 @@ impl Subject {
             },
         )
     }
+}
+
+/// Reads and bakes a file with the defaults.
+pub(crate) fn bake(path: &Path, resources: &Resources) -> Result<VtexFile> {
+    let config = BakeConfig::default();
+    vtex_baker::bake_observed(&read(path)?, &config, resources, &|_| ())
+        .with_context(|| format!("cannot bake {}", path.display()))
 }
 
 /// The system's fonts, for drawings with text.

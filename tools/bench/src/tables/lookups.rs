@@ -8,6 +8,7 @@ use vtex_shaders::cpu::{LookupCost, Sampler};
 use vtex_shaders::layout::BatchQuery;
 use vtex_shaders::{BindingSlot, FilterMode, PackOptions, fragment, spec_key};
 
+use super::left_out;
 use crate::report::{Cell, Table};
 use crate::subject::{CpuRaster, FILTERS, RASTER_SIZE, Subject, hardware_kernel};
 use crate::timing::{Device, Effort, Kernel, QuerySet, Timing, Trial, interleave};
@@ -19,7 +20,12 @@ pub(crate) fn gpu_tables(
     effort: Effort,
 ) -> Result<Vec<Table>> {
     let mut rows = Vec::new();
-    for subject in subjects {
+    let mut rest = None;
+    for (index, subject) in subjects.iter().enumerate() {
+        if effort.is_over() {
+            rest = Some(left_out(&subjects[index..]));
+            break;
+        }
         let mut kernels = vec![hardware_kernel(device, &subject.raster)];
         kernels.extend(FILTERS.map(|(_, filter)| vtex_kernel(device, subject, filter)));
         for set in subject.query_sets(effort.gpu_lookups) {
@@ -27,11 +33,15 @@ pub(crate) fn gpu_tables(
             let trials = kernels
                 .iter()
                 .map(|kernel| Trial::timed(set.len(), || device.time(kernel, &batch)));
-            rows.push((subject, set, interleave(trials.collect(), effort.rounds)?));
+            rows.push((subject, set, effort.interleave(trials.collect())?));
         }
     }
     let baseline = "sRGB8 with mips through the trilinear sampler";
-    Ok(tables("Lookups on the GPU", baseline, &rows))
+    let mut tables = tables("Lookups on the GPU", baseline, &rows);
+    for table in &mut tables {
+        rest.iter().for_each(|rest| table.note(rest));
+    }
+    Ok(tables)
 }
 
 /// As [`gpu_tables`] for the twin on `threads` threads.

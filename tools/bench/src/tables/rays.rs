@@ -1,5 +1,6 @@
 //! Rays per second of the path tracer, with and without textures.
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, Result, ensure};
@@ -8,12 +9,15 @@ use vtex_format::{CellWord, Entry, EntryKind, Grid, Image, SpecKey, VtexFile};
 use vtex_runtime::{LoadOptions, Scene, TraceOptions, Tracer, scene};
 use vtex_scenes::showroom;
 
+use super::left_out;
 use crate::report::{Cell, Table};
 use crate::subject::{Subject, rasterise, read};
-use crate::timing::{Device, Effort, Trial, interleave};
+use crate::timing::{Device, Effort, Trial};
 
-/// Size of the film: small, since a software driver traces about a million rays per second.
-const FILM: [u32; 2] = [240, 160];
+/// Size of the film on a graphics card, and in software: a software driver traces about a million
+/// rays per second, and a card is done with as many before its clock can tell.
+const CARD_FILM: [u32; 2] = [1280, 720];
+const SOFTWARE_FILM: [u32; 2] = [240, 160];
 /// Samples per pixel in a run.
 const SAMPLES: u32 = 4;
 /// Longer side of the raster textures. Four of them at 2048, as half floats with their mips, exceed
@@ -25,10 +29,11 @@ const SHOWROOM: usize = 4;
 /// The showroom with the first files, then each file on a plane.
 pub(crate) fn rays_table(
     device: &Device,
-    subjects: &[(std::path::PathBuf, Subject)],
+    subjects: &[(&Path, &Subject)],
     resources: &Resources,
     effort: Effort,
 ) -> Result<Table> {
+    let film = film(device);
     let raster = format!("raster {RASTER_SIZE}^2");
     let columns = ["GPU, million rays/s", &raster, "vector", "no texture"];
     let mut table = Table::new("Rays of the path tracer", &columns);
@@ -36,8 +41,8 @@ pub(crate) fn rays_table(
         "{} x {} pixels, {SAMPLES} samples each, up to {} bounces, ray-cone footprints. The raster \
          is half floats with mips in a storage buffer, filtered by the same evaluator: the tracer \
          takes no other texture.",
-        FILM[0],
-        FILM[1],
+        film[0],
+        film[1],
         TraceOptions::default().max_bounces,
     ));
     let mut rasters = Vec::new();
@@ -59,7 +64,12 @@ pub(crate) fn rays_table(
         showroom(Vec::new()),
     ];
     table.row(row(device, "showroom", &rooms, effort)?);
-    for ((raster, vector), (_, subject)) in rasters.into_iter().zip(vectors).zip(subjects) {
+    let files = rasters.into_iter().zip(vectors).zip(subjects);
+    for (index, ((raster, vector), (_, subject))) in files.enumerate() {
+        if effort.is_over() {
+            table.note(left_out(subjects[index..].iter().map(|(_, rest)| *rest)));
+            break;
+        }
         let mut bare = scene::plane(vector.clone(), LoadOptions::default());
         bare.textures.clear();
         bare.materials
@@ -116,11 +126,18 @@ fn raster_file(like: &VtexFile, image: Image) -> VtexFile {
     file
 }
 
+fn film(device: &Device) -> [u32; 2] {
+    match device.is_software() {
+        true => SOFTWARE_FILM,
+        false => CARD_FILM,
+    }
+}
+
 fn row(device: &Device, name: &str, scenes: &[Scene], effort: Effort) -> Result<Vec<Cell>> {
     let mut tracers = Vec::new();
     for scene in scenes {
         let options = TraceOptions::for_samples(SAMPLES);
-        let mut tracer = Tracer::new(&device.device, &device.queue, scene, FILM, &options)?;
+        let mut tracer = Tracer::new(&device.device, &device.queue, scene, film(device), &options)?;
         tracer.accumulate(SAMPLES)?;
         let rays = tracer.stats()?.rays;
         tracers.push((tracer, usize::try_from(rays)?));
@@ -129,7 +146,7 @@ fn row(device: &Device, name: &str, scenes: &[Scene], effort: Effort) -> Result<
         .iter_mut()
         .map(|(tracer, rays)| Trial::timed(*rays, || trace(tracer)))
         .collect();
-    let timings = interleave(trials, effort.rounds)?;
+    let timings = effort.interleave(trials)?;
     let mut cells = vec![Cell::Text(name.to_owned())];
     cells.extend(
         timings

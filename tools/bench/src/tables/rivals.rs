@@ -5,7 +5,7 @@ use anyhow::{Result, ensure};
 use super::sfg22::{self, LAYER_COUNTS, LAYER_SIZE};
 use crate::report::{Cell, Table};
 use crate::subject::{RASTER_SIZE, halves_kernel, hardware_kernel, synthetic};
-use crate::timing::{Device, Effort, Kernel, QuerySet, Screen, Trial, interleave};
+use crate::timing::{Device, Effort, Kernel, QuerySet, Screen, Trial};
 
 /// Texels of the mip chains compared when minified: the baker's default.
 const MIP0_SIZE: u32 = 512;
@@ -120,7 +120,7 @@ fn lookups_table(
         let trials = kernels
             .iter()
             .map(|(_, kernel)| Trial::timed(set.len(), || device.time(kernel, &batch)));
-        let timings = interleave(trials.collect(), effort.rounds)?;
+        let timings = effort.interleave(trials.collect())?;
         for (index, (row, timing)) in rows.iter_mut().zip(&timings).enumerate() {
             let ratio = (index > 0).then(|| timing.speed_against(&timings[0]));
             row.push(Cell::Measured {

@@ -4,7 +4,7 @@
 //! were measured one after the other cannot be compared. Here one round runs every trial once, and
 //! a ratio is the median of the ratios within rounds: both of its sides saw the same machine.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use anyhow::Result;
 
@@ -17,6 +17,29 @@ pub(crate) struct Effort {
     pub(crate) gpu_lookups: usize,
     /// Lookups a run on the CPU.
     pub(crate) cpu_lookups: usize,
+    /// How long to run everything unmeasured at least.
+    pub(crate) warm_up: Duration,
+    /// When to begin no more files.
+    pub(crate) deadline: Option<Instant>,
+}
+
+impl Effort {
+    /// Whether the deadline has passed.
+    pub(crate) fn is_over(&self) -> bool {
+        self.deadline
+            .is_some_and(|deadline| Instant::now() >= deadline)
+    }
+
+    /// [`interleave`] after the warm-up.
+    pub(crate) fn interleave(&self, mut trials: Vec<Trial<'_>>) -> Result<Vec<Timing>> {
+        let start = Instant::now();
+        while start.elapsed() < self.warm_up {
+            for trial in &mut trials {
+                (trial.run)()?;
+            }
+        }
+        interleave(trials, self.rounds)
+    }
 }
 
 /// One thing to time.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, ensure};
 use serde_json::{Value, json};
 use vtex_runtime::Gpu;
 use wgpu::util::DeviceExt as _;
@@ -65,6 +65,22 @@ impl Device {
             info,
             stamps,
         })
+    }
+
+    /// An error when the adapter is this machine's processor.
+    pub(crate) fn refuse_software(&self) -> Result<()> {
+        ensure!(
+            !self.is_software(),
+            "the adapter is {}, which is this machine's processor and no graphics card: install the \
+             card's Vulkan driver, or name another adapter with VTEX_ADAPTER",
+            self.info.name
+        );
+        Ok(())
+    }
+
+    /// Whether the adapter is this machine's processor.
+    pub(crate) fn is_software(&self) -> bool {
+        self.info.device_type == wgpu::DeviceType::Cpu
     }
 
     /// Name and value, for people.

@@ -8,4 +8,4 @@ mod queries;
 pub(crate) use clock::{Effort, Spread, Timing, Trial, interleave};
 pub(crate) use device::{Device, Kernel};
 pub(crate) use machine::{Machine, load_average};
-pub(crate) use queries::{QuerySet, Screen};
+pub(crate) use queries::{QuerySet, Screen, random_queries};

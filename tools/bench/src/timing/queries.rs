@@ -192,6 +192,29 @@ impl Screen {
     }
 }
 
+/// Points on the canvas and a little around it, with footprints of any size and direction.
+pub(crate) fn random_queries(count: usize) -> Vec<BatchQuery> {
+    /// Of the canvas, on each side.
+    const MARGIN: f32 = 0.05;
+    /// The smallest footprint is 2 to the minus this of the canvas.
+    const OCTAVES: f32 = 16.0;
+    let mut seed = 0_u32;
+    let mut next = || {
+        seed = seed.wrapping_add(1);
+        unit(scramble(seed))
+    };
+    let query = |_| {
+        let uv = [next(), next()].map(|at| at * (1.0 + 2.0 * MARGIN) - MARGIN);
+        let width = (-OCTAVES * next()).exp2();
+        BatchQuery {
+            uv,
+            footprint: [(); 4].map(|()| width * (2.0 * next() - 1.0)),
+            ..BatchQuery::default()
+        }
+    };
+    (0..count).map(query).collect()
+}
+
 /// A bijection on 32 bits without visible pattern (Wellons, "Prospecting for hash functions").
 fn scramble(mut bits: u32) -> u32 {
     bits ^= bits >> 16;

@@ -19,6 +19,8 @@ pub struct Terms {
     pub longer_px: u32,
     /// Samples per pixel.
     pub spp: u32,
+    /// As in [`Shot`].
+    pub region_uv: [f64; 2],
     /// Number of windows to compare at each zoom above 1.
     pub windows: u32,
     /// Whether lookups return alpha only; then alpha is compared.
@@ -189,6 +191,7 @@ impl<'a> Comparison<'a> {
             view,
             size_px: self.size_px,
             spp: self.terms.spp,
+            region_uv: self.terms.region_uv,
         }
     }
 

@@ -6,7 +6,7 @@ mod shot;
 use crate::{TruthError, srgb};
 
 pub use metrics::{Difference, PSNR_CAP_DB, WRONG_ABOVE, difference, difference_picture};
-pub use shot::{Shot, hash};
+pub use shot::{POINTS, Shot, hash};
 
 /// A rectangle of the canvas in uv: left, top, right, bottom.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,4 +1,4 @@
-//! Taking a picture of a texture: stratified samples in each pixel, averaged in linear light.
+//! Taking a picture of a texture: samples in each pixel, averaged in linear light.
 
 use rayon::prelude::*;
 use vtex_shaders::layout::BatchQuery;
@@ -14,36 +14,55 @@ pub struct Shot {
     pub size_px: [u32; 2],
     /// Samples per pixel. A single one lies at the centre of the pixel.
     pub spp: u32,
+    /// Samples are regions if each has at least this width and height in uv, otherwise points.
+    /// `crate::texture::region_uv` says from what size on a texture averages.
+    pub region_uv: [f64; 2],
 }
 
+/// [`Shot::region_uv`] where all samples are points.
+pub const POINTS: [f64; 2] = [f64::INFINITY; 2];
+
 impl Shot {
-    /// All lookups of pixel `(x, y)`.
+    /// All lookups of pixel `(x, y)`. Each of `n` samples has a footprint of `1/n` of the pixel.
     ///
-    /// Divide a pixel into `n` columns or into `n` rows: each holds one of its `n` samples. If `n` is
-    /// a power of two, that also holds for all grids of `n` boxes between the two. The samples are
-    /// a Hammersley set, shifted and scrambled by a hash of the pixel, so that pixels differ and the
-    /// same picture has the same samples every time.
+    /// *Regions* divide the pixel into columns and rows, as square as `n` allows. So their mean is
+    /// that over the pixel, neither wider nor noisy.
     ///
-    /// The footprint of a sample is that of the pixel with its axes divided by `sqrt(n)`, so that
-    /// the footprints of all samples have the area of the pixel.
+    /// *Points* stand for themselves. Divide a pixel into `n` columns or into `n` rows: each holds
+    /// one of them. If `n` is a power of two, that also holds for all grids of `n` boxes between the
+    /// two. They are a Hammersley set, shifted and scrambled by a hash of the pixel, so that pixels
+    /// differ and the same picture has the same samples every time.
     pub fn queries(self, x: u32, y: u32) -> impl Iterator<Item = BatchQuery> {
         let extent = self.view.extent();
-        let axis = |a: usize| extent[a] / f64::from(self.size_px[a]) / f64::from(self.spp).sqrt();
-        let footprint = [narrow(axis(0)), 0.0, 0.0, narrow(axis(1))];
+        let pixel_uv = [0, 1].map(|a| extent[a] / f64::from(self.size_px[a]));
+        let grid = grid(self.spp);
+        let regions = (0..2).all(|a| pixel_uv[a] / grid[a] >= self.region_uv[a]);
+        let parts = if regions {
+            grid
+        } else {
+            [f64::from(self.spp).sqrt(); 2]
+        };
+        let [width, height] = [0, 1].map(|a| narrow(pixel_uv[a] / parts[a]));
         let key = hash(u64::from(y) << 32 | u64::from(x));
         (0..self.spp).map(move |sample| {
-            let [dx, dy] = self.offset(sample, key);
+            let [dx, dy] = if regions {
+                let row = (f64::from(sample) / grid[0]).floor();
+                let column = f64::from(sample) - row * grid[0];
+                [(column + 0.5) / grid[0], (row + 0.5) / grid[1]]
+            } else {
+                self.offset(sample, key)
+            };
             let point = [f64::from(x) + dx, f64::from(y) + dy];
             let uv = self.view.uv_from_px(point, self.size_px).map(narrow);
             BatchQuery {
                 uv,
                 padding: [0.0; 2],
-                footprint,
+                footprint: [width, 0.0, 0.0, height],
             }
         })
     }
 
-    /// Where in the pixel sample `sample` lies, in \[0, 1)^2.
+    /// Where in the pixel point `sample` lies, in \[0, 1)^2.
     fn offset(self, sample: u32, key: u64) -> [f64; 2] {
         if self.spp == 1 {
             return [0.5; 2];
@@ -106,6 +125,15 @@ impl Shot {
     }
 }
 
+/// Columns and rows that hold `count` parts, as near to each other as its divisors are.
+fn grid(count: u32) -> [f64; 2] {
+    let rows = (1..=count.isqrt())
+        .rev()
+        .find(|&rows| count.is_multiple_of(rows));
+    let rows = rows.unwrap_or(1);
+    [count / rows, rows].map(f64::from)
+}
+
 fn mean(colors: impl Iterator<Item = [f32; 4]>, count: u32) -> [f32; 4] {
     let sum = colors.fold([0.0_f32; 4], |sum, color| {
         std::array::from_fn(|c| sum[c] + color[c])
@@ -146,6 +174,7 @@ mod tests {
             view: View::WHOLE,
             size_px: [8, 8],
             spp: 16,
+            region_uv: POINTS,
         };
         for (x, y) in [(0, 0), (3, 5), (7, 7)] {
             let mut boxes = [0; 16];
@@ -164,11 +193,32 @@ mod tests {
     }
 
     #[test]
+    fn regions_tile_the_pixel() {
+        for (spp, [columns, rows]) in [(1, [1, 1]), (3, [3, 1]), (8, [4, 2]), (16, [4, 4])] {
+            let shot = Shot {
+                view: View::WHOLE,
+                size_px: [8, 8],
+                spp,
+                region_uv: [0.125 / f64::from(columns), 0.125 / f64::from(rows)],
+            };
+            let size = [columns, rows].map(|parts| 0.125 / parts as f32);
+            for (sample, query) in (0..).zip(shot.queries(5, 2)) {
+                let place: [u32; 2] = [sample % columns, sample / columns];
+                let uv = [0, 1].map(|a| [5, 2][a] as f32 / 8.0 + (place[a] as f32 + 0.5) * size[a]);
+                let apart = (0..2).all(|a| (query.uv[a] - uv[a]).abs() < 1e-6);
+                assert!(apart, "{spp}: {query:?}, not {uv:?}");
+                assert_eq!(query.footprint, [size[0], 0.0, 0.0, size[1]]);
+            }
+        }
+    }
+
+    #[test]
     fn batches_and_single_lookups_agree() {
         let shot = Shot {
             view: View::WHOLE,
             size_px: [5, 3],
             spp: 3,
+            region_uv: POINTS,
         };
         let lookup = |uv: [f32; 2]| [uv[0], uv[1], uv[0] * uv[1], 1.0];
         let single = shot.shoot(|uv, _| lookup(uv));

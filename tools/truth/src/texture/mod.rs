@@ -3,12 +3,12 @@
 mod patches;
 mod raster;
 
-use vtex_format::{AddressMode, VtexFile};
+use vtex_format::{AddressMode, Features, VtexFile};
 use vtex_runtime::{BatchSampler, Gpu, LoadOptions, Trust};
 use vtex_shaders::{PackOptions, cpu};
 
 use crate::TruthError;
-use crate::picture::{Picture, Shot};
+use crate::picture::{POINTS, Picture, Shot};
 
 pub use patches::{PatchCover, patch_cover};
 pub use raster::{RasterTexture, TODAY_TEXELS};
@@ -29,6 +29,23 @@ pub fn canvas_options(filter: FilterMode) -> PackOptions {
         address: Some([AddressMode::Clamp; 2]),
         texture_matrix: Some([1.0, 0.0, 0.0, 1.0, 0.0, 0.0]),
         ..pack_options(filter)
+    }
+}
+
+/// Least width and height of a lookup's footprint in uv from which the lookup is a mean over it. In
+/// footprint mode all are; in the other modes those that mips answer. Mips fade in between half a
+/// texel of mip 0 and one texel.
+pub fn region_uv(file: &VtexFile, filter: FilterMode) -> [f64; 2] {
+    /// Where mips have more than half of the weight.
+    const LEAST_TEXELS: f64 = 0.75;
+    let canvas = file
+        .images
+        .first()
+        .filter(|_| file.spec.features & Features::MIPS != 0);
+    match (filter, canvas) {
+        (FilterMode::Footprint, _) => [0.0; 2],
+        (_, Some(canvas)) => canvas.size.map(|side| LEAST_TEXELS / f64::from(side)),
+        (_, None) => POINTS,
     }
 }
 

@@ -178,7 +178,8 @@ pub(crate) struct BakeOptions {
     /// distance range: more than 0, at most 0.5
     #[arg(long, value_name = "S", default_value_t = BakeConfig::default().smoothing)]
     pub(crate) smoothing: f32,
-    /// Draw an outline of WIDTH MSDF texels around every shape, with --mode auto as MSDFs
+    /// Draw a ring of WIDTH MSDF texels around every shape, which --mode auto then stores as an MSDF.
+    /// Not with --mode curves or raster; cells that show groups have no rings
     #[arg(long, value_name = "WIDTH", num_args = 0..=1, default_missing_value = "1")]
     pub(crate) outline: Option<f32>,
     /// Replace the colour of every fill by a CSS colour, such as #d03020, navy or rgb(1 2 3)
@@ -262,12 +263,13 @@ pub(crate) struct Lookup {
 /// How a lookup filters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Filter {
-    /// Hard edges: only the samples of a pixel smooth them
+    /// The picture at the sample itself: only the samples of a pixel smooth its hard edges
     #[default]
     Point,
-    /// Edges smoothed over the width of a sample's footprint
+    /// The mean of the picture over a sample's footprint, from 32 places in it
     Footprint,
-    /// Edges smoothed over the constant width of `bake --smoothing`
+    /// The picture at the sample itself, with edges of MSDFs smoothed over the constant width of
+    /// `bake --smoothing`; edges of curves and images stay hard
     Paper,
 }
 

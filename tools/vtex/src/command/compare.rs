@@ -8,7 +8,7 @@ use vtex_format::VtexFile;
 use vtex_truth::comparison::{Column, Comparison, Page, Sizes, Terms, Window, ZoomReport};
 use vtex_truth::picture::difference_picture;
 use vtex_truth::reference::{Edges, Reference};
-use vtex_truth::texture::{RasterTexture, Shooter, TODAY_TEXELS, canvas_options};
+use vtex_truth::texture::{RasterTexture, Shooter, TODAY_TEXELS, canvas_options, region_uv};
 
 use crate::baking::fonts::FontLibrary;
 use crate::cli::args::Compare;
@@ -98,6 +98,7 @@ fn terms(args: &Compare, file: &VtexFile) -> Terms {
     Terms {
         longer_px: args.size,
         spp: args.lookup.spp,
+        region_uv: region_uv(file, args.lookup.filter.into()),
         windows: args.windows,
         mask: file.meta.sampler.mask,
     }

@@ -7,7 +7,9 @@ use vtex_baker::BakeConfig;
 use vtex_format::VtexFile;
 use vtex_truth::comparison::{Column, Comparison, Page, Sizes, Terms, WINDOWS, human_bytes};
 use vtex_truth::reference::{Edges, Reference};
-use vtex_truth::texture::{FilterMode, RasterTexture, Shooter, TODAY_TEXELS, canvas_options};
+use vtex_truth::texture::{
+    FilterMode, RasterTexture, Shooter, TODAY_TEXELS, canvas_options, region_uv,
+};
 
 use crate::baking;
 use crate::baking::fonts::FontLibrary;
@@ -128,6 +130,7 @@ impl Drawing {
             Terms {
                 longer_px,
                 spp: SPP,
+                region_uv: region_uv(&self.file, FilterMode::Point),
                 windows: WINDOWS,
                 mask: false,
             },

@@ -2,7 +2,7 @@
 
 use vtex_format::VtexFile;
 use vtex_truth::picture::{Shot, View, fit_size};
-use vtex_truth::texture::pack_options;
+use vtex_truth::texture::{pack_options, region_uv};
 
 use crate::cli::args::Preview;
 use crate::cli::{Console, ExitCode, Outcome, Size};
@@ -19,6 +19,7 @@ pub(super) fn run(args: &Preview, console: Console) -> Outcome<ExitCode> {
         view,
         size_px: size_px(args.size, view, &file),
         spp: args.lookup.spp,
+        region_uv: region_uv(&file, args.lookup.filter.into()),
     };
     let pack = pack_options(args.lookup.filter.into());
     let picture = texture::shooter(&file, pack, args.lookup.backend)?.shoot(shot)?;

@@ -78,16 +78,6 @@ fn names_path(line: &str, path: &str) -> bool {
     })
 }
 
-/// A member takes the workspace's lints.
-pub(crate) fn check_manifest(file: &str, content: &str) -> Option<String> {
-    let mut lines = content
-        .lines()
-        .map(str::trim)
-        .skip_while(|line| *line != "[lints]");
-    let taken = lines.nth(1) == Some("workspace = true");
-    (!taken).then(|| format!("{file}: lacks [lints] workspace = true"))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -153,13 +143,5 @@ mod tests {
         expect("a.md", &format!("{path}someone\n"), &["a.md:1"]);
         expect("a.md", &format!("https://example.org{path}x\n"), &[]);
         expect("a.md", &format!("$PREFIX{path}x and ${{D}}{path}\n"), &[]);
-    }
-
-    #[test]
-    fn members_take_the_lints() {
-        let taken = "[package]\nname = \"a\"\n\n[lints]\nworkspace = true\n";
-        assert_eq!(check_manifest("Cargo.toml", taken), None);
-        assert!(check_manifest("Cargo.toml", "[lints.rust]\n").is_some());
-        assert!(check_manifest("Cargo.toml", "[lints]\nworkspace = false\n").is_some());
     }
 }

@@ -1,6 +1,5 @@
 //! Records against brute force over the whole outline.
 
-mod distance;
 mod shapes;
 mod watertight;
 

@@ -80,13 +80,15 @@ pub(crate) fn feature_names(features: u32) -> Vec<&'static str> {
         (Features::TRANSLUCENT, "translucent"),
         (Features::MASK, "mask"),
         (Features::OUTLINE, "outline"),
-        (Features::TEXTURE_MATRIX, "texture-matrix"),
+        (Features::MAPPING, "mapping"),
         (Features::CURVES, "curves"),
-        (Features::RAMPS, "ramps"),
+        (Features::FOOTPRINT, "footprint"),
+        (Features::PAPER, "paper"),
         (Features::GRADIENTS, "gradients"),
         (Features::CLIPS, "clips"),
         (Features::GROUPS, "groups"),
         (Features::BLENDS, "blends"),
+        (Features::DEEP_GROUPS, "deep-groups"),
     ];
     names
         .into_iter()
@@ -146,8 +148,8 @@ fn json(file: &VtexFile, directory: &Directory) -> Value {
         "tiles": tile_count(file), "paints": file.paints.len(),
         "layers": layers, "shapes": shapes, "images": images, "sections": sections,
         "shader": {
-            "abi": file.spec.abi, "features": feature_names(file.spec.features),
-            "key": spec_words(file), "wgsl_bytes": file.shader.wgsl_fragment.len(),
+            "abi": file.shader.abi, "features": feature_names(file.spec.features),
+            "key": key(file), "wgsl_bytes": file.shader.wgsl_fragment.len(),
             "spirv_bytes": 4 * file.shader.batch_spirv.len(),
         },
         "tool": provenance.map(|p| &p.tool),
@@ -169,8 +171,8 @@ fn members(file: &VtexFile, layer: u32) -> Vec<usize> {
         .collect()
 }
 
-fn spec_words(file: &VtexFile) -> String {
-    hex(bytemuck::bytes_of(&file.spec.encode()))
+fn key(file: &VtexFile) -> String {
+    format!("{:08x}", file.spec.features)
 }
 
 fn hex(bytes: &[u8]) -> String {
@@ -294,12 +296,12 @@ fn general(out: &mut String, file: &VtexFile, directory: &Directory) -> std::fmt
     writeln!(
         out,
         "shader     ABI {}, {}; WGSL {}, SPIR-V {}",
-        file.spec.abi,
+        file.shader.abi,
         feature_names(file.spec.features).join(" "),
         human_bytes(file.shader.wgsl_fragment.len() as u64),
         human_bytes(4 * file.shader.batch_spirv.len() as u64)
     )?;
-    writeln!(out, "key        {}", spec_words(file))
+    writeln!(out, "key        {}", key(file))
 }
 
 fn sampler(file: &VtexFile) -> String {
@@ -309,7 +311,7 @@ fn sampler(file: &VtexFile) -> String {
         .map(|mode| format!("{mode:?}").to_lowercase());
     let address = if u == v { u } else { format!("{u} {v}") };
     let mut text = format!("address {address}, smoothing {}", sampler.smoothing);
-    if file.spec.features & Features::TEXTURE_MATRIX != 0 {
+    if sampler.is_transformed() {
         let _ = write!(text, ", matrix {:?}", sampler.texture_matrix);
     }
     if let Some(outline) = sampler.outline {

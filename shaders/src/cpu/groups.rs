@@ -1,0 +1,186 @@
+//! Twin of `vtex/groups.wgsl`: lists that hold groups, whose items lie back to front. One walk,
+//! sRGB-encoded, with what lies behind each open group on a stack.
+
+use vtex_format::MAX_FRAMES;
+
+use super::blend::blend;
+use super::color::decode_premultiplied;
+use super::cost::Observer;
+use super::edge::{BEYOND, Edge, is_test, jumps, target};
+use super::samples::Samples;
+use super::source::source;
+use super::walk::Answer;
+use super::{Lookup, Sampler};
+use crate::layout::{item, mask};
+
+/// What the list shows to those samples of `live` that do at every edge as the first of them does.
+pub(super) fn groups<S: Samples>(
+    sampler: &Sampler<'_>,
+    lookup: &Lookup,
+    first: u32,
+    samples: &S,
+    mut live: u32,
+    observer: &mut impl Observer,
+) -> Answer {
+    let leader = 1 << live.trailing_zeros();
+    let mut stack = Stack::new();
+    let mut edge = Edge::<S>::new();
+    let mut at = first;
+    for _ in 0..item::LIMIT {
+        if sampler.is_past(at) {
+            break;
+        }
+        let words: [u32; 4] = sampler.words(at);
+        let tail = words[3];
+        at = at.wrapping_add(item::WORDS);
+        edge.wind(samples, words);
+        observer.item(tail);
+        if tail & item::END_BIT == 0 {
+            continue;
+        }
+        let covered = edge.covered(sampler, samples, words, live);
+        let next = at;
+        if tail & item::LAST_BIT != 0 {
+            at = BEYOND;
+        }
+        if tail & item::CONTROL_BIT != 0 {
+            let passes = if is_test(tail) {
+                let jumps = jumps(tail, covered);
+                let passes = jumps & leader != 0;
+                live &= if passes { jumps } else { !jumps };
+                passes
+            } else {
+                stack.control(words)
+            };
+            if passes {
+                at = target(tail, next);
+            }
+        } else if covered & leader != 0 {
+            live &= covered;
+            observer.paint(tail);
+            let shown = source(sampler, tail, samples.uv(live), lookup).encoded;
+            let through = 1.0 - shown[3];
+            stack.color = std::array::from_fn(|i| shown[i] + through * stack.color[i]);
+        } else {
+            live &= !covered;
+        }
+    }
+    Answer::of(decode_premultiplied(stack.color), live)
+}
+
+/// Of an open group.
+#[derive(Clone, Copy, Debug)]
+struct Saved {
+    /// What lies behind it.
+    color: [f32; 4],
+    /// What its masks make of its opacity.
+    weight: f32,
+}
+
+/// The colour so far and what lies behind the open groups; all sRGB-encoded, premultiplied.
+struct Stack {
+    color: [f32; 4],
+    /// Of masks whose group has not begun.
+    weight: f32,
+    depth: usize,
+    saved: [Saved; MAX_FRAMES as usize],
+}
+
+impl Stack {
+    const fn new() -> Self {
+        let nothing = Saved {
+            color: [0.0; 4],
+            weight: 0.0,
+        };
+        Self {
+            color: [0.0; 4],
+            weight: 1.0,
+            depth: 0,
+            saved: [nothing; MAX_FRAMES as usize],
+        }
+    }
+
+    /// Whether the walk is to pass over what follows the control item.
+    fn control(&mut self, item: [u32; 4]) -> bool {
+        match item[3] & item::CONTROL_MASK {
+            item::OPEN => {
+                self.open(item[0] != 0);
+                false
+            }
+            item::CLOSE => {
+                self.close(item);
+                false
+            }
+            _ => self.mask(item[0]),
+        }
+    }
+
+    fn open(&mut self, isolated: bool) {
+        // No list that a validator lets in has more groups.
+        if let Some(saved) = self.saved.get_mut(self.depth) {
+            *saved = Saved {
+                color: self.color,
+                weight: self.weight,
+            };
+            self.depth += 1;
+        }
+        self.weight = 1.0;
+        if isolated {
+            self.color = [0.0; 4];
+        }
+    }
+
+    fn pop(&mut self) -> Option<Saved> {
+        self.depth = self.depth.checked_sub(1)?;
+        Some(self.saved[self.depth])
+    }
+
+    fn close(&mut self, item: [u32; 4]) {
+        let group = self.color;
+        let Some(saved) = self.pop() else {
+            return;
+        };
+        let weight = f32::from_bits(item[0]) * saved.weight;
+        self.color = if item[2] != 0 {
+            over(item[1], saved.color, group.map(|c| weight * c))
+        } else if weight >= 1.0 {
+            group
+        } else {
+            std::array::from_fn(|i| (1.0 - weight) * saved.color[i] + weight * group[i])
+        };
+    }
+
+    fn mask(&mut self, kind: u32) -> bool {
+        let content = self.color;
+        let shown = match kind {
+            mask::LUMINANCE => luminance(content),
+            mask::LINEAR_LUMINANCE => luminance(decode_premultiplied(content)),
+            _ => content[3],
+        };
+        let Some(saved) = self.pop() else {
+            return false;
+        };
+        self.color = saved.color;
+        let weight = saved.weight * shown;
+        let nothing = weight <= 0.0;
+        self.weight = if nothing { 1.0 } else { weight };
+        nothing
+    }
+}
+
+/// An isolated group over what lies behind it.
+fn over(mode: u32, behind: [f32; 4], group: [f32; 4]) -> [f32; 4] {
+    // Where one side alone shows, no mode changes it.
+    if group[3] <= 0.0 {
+        return behind;
+    }
+    if behind[3] <= 0.0 {
+        return group;
+    }
+    blend(mode, behind, group)
+}
+
+/// Coefficients of Rec. 709, as resvg has them.
+fn luminance([r, g, b, _]: [f32; 4]) -> f32 {
+    r * 0.2126 + g * 0.7152 + b * 0.0722
+}

@@ -1,0 +1,65 @@
+//! Twin of `vtex/mapping_any.wgsl`, and so of `vtex/mapping_clamp.wgsl`, which is what it does for
+//! the identity and the address mode clamp.
+
+use vtex_format::Features;
+
+use super::Sampler;
+use super::math::clamp;
+use crate::layout::address::{BORDER, MIRROR, REPEAT};
+
+fn linear(m: &[f32; 6], v: [f32; 2]) -> [f32; 2] {
+    [m[0] * v[0] + m[2] * v[1], m[1] * v[0] + m[3] * v[1]]
+}
+
+pub(super) fn point(sampler: &Sampler<'_>, uv: [f32; 2]) -> [f32; 2] {
+    if !sampler.settings.has(Features::MAPPING) {
+        return uv;
+    }
+    let m = &sampler.settings.texture_matrix;
+    let [u, v] = linear(m, uv);
+    [u + m[4], v + m[5]]
+}
+
+pub(super) fn axes(sampler: &Sampler<'_>, axes: [f32; 4]) -> [f32; 4] {
+    if !sampler.settings.has(Features::MAPPING) {
+        return axes;
+    }
+    let m = &sampler.settings.texture_matrix;
+    let first = linear(m, [axes[0], axes[1]]);
+    let second = linear(m, [axes[2], axes[3]]);
+    [first[0], first[1], second[0], second[1]]
+}
+
+fn axis(t: f32, mode: u32) -> f32 {
+    match mode {
+        REPEAT => t - t.floor(),
+        MIRROR => {
+            let turn = t - 2.0 * (t * 0.5).floor();
+            if turn > 1.0 { 2.0 - turn } else { turn }
+        }
+        _ => clamp(t, 0.0, 1.0),
+    }
+}
+
+pub(super) fn address(sampler: &Sampler<'_>, uv: [f32; 2]) -> [f32; 2] {
+    let modes = sampler.settings.address;
+    [axis(uv[0], modes[0]), axis(uv[1], modes[1])]
+}
+
+#[expect(
+    clippy::manual_range_contains,
+    reason = "what is no number is not outside"
+)]
+fn axis_outside(t: f32, mode: u32) -> bool {
+    mode == BORDER && (t < 0.0 || t > 1.0)
+}
+
+pub(super) fn outside(sampler: &Sampler<'_>, uv: [f32; 2]) -> bool {
+    let modes = sampler.settings.address;
+    axis_outside(uv[0], modes[0]) || axis_outside(uv[1], modes[1])
+}
+
+/// Axes along which the filter of image 0 reaches round to the other side.
+pub(super) fn wraps(sampler: &Sampler<'_>) -> [bool; 2] {
+    sampler.settings.address.map(|mode| mode == REPEAT)
+}

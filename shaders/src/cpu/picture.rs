@@ -1,0 +1,257 @@
+//! Twin of `vtex/picture_*.wgsl`, `vtex/cell.wgsl` and `vtex/lists_*.wgsl`: what the cells show to a lookup.
+
+use vtex_format::Features;
+
+use super::cost::Observer;
+use super::math::{clamp, to_f32, to_u32};
+use super::plane::Vec2;
+use super::rows::{CellRows, Rows, reach};
+use super::samples::{Point, Samples};
+use super::walk::{Answer, walk};
+use super::{Lookup, Sampler, groups, paint, paper};
+use crate::layout::rows::{EVERY, SAMPLES};
+use crate::layout::{cell, filter, item};
+
+/// Farther than any place in cells.
+const FAR: f32 = 1e30;
+/// By how much of its side the list of a fine cell goes beyond it.
+const OVERLAP: f32 = cell::OVERLAP as f32 / 16.0;
+
+/// Linear light, premultiplied.
+pub(super) fn picture(
+    sampler: &Sampler<'_>,
+    lookup: &Lookup,
+    observer: &mut impl Observer,
+) -> [f32; 4] {
+    let s = &sampler.settings;
+    let p = [0, 1].map(|axis| lookup.uv[axis] * s.scale[axis] + s.offset[axis]);
+    if s.filter == filter::FOOTPRINT {
+        return average(sampler, lookup, p, observer);
+    }
+    let fine = fine_cell(sampler, p);
+    let q = [0, 1].map(|i| p[i] - (fine[i] * s.cell_per_fine).floor());
+    let word = word_at(sampler, fine.map(to_u32));
+    observer.cell();
+    point(sampler, lookup, word, q, observer)
+}
+
+/// What a fine cell with `word` shows to a point lookup.
+pub(super) fn point(
+    sampler: &Sampler<'_>,
+    lookup: &Lookup,
+    word: u32,
+    q: Vec2,
+    observer: &mut impl Observer,
+) -> [f32; 4] {
+    let [units, margin] = sampler.settings.curve_lattice;
+    let samples = Point {
+        uv: lookup.uv,
+        q,
+        p: q.map(|q| q * units + margin),
+    };
+    shown(sampler, lookup, word, &samples, 1, observer).sum
+}
+
+/// The mean of what the cells show to a footprint's samples, pass by pass.
+fn average(
+    sampler: &Sampler<'_>,
+    lookup: &Lookup,
+    p: Vec2,
+    observer: &mut impl Observer,
+) -> [f32; 4] {
+    let mut canvas = Canvas::new(sampler, lookup, p);
+    let first = canvas.pass(sampler, canvas.centre);
+    // The GPU's text has no branch; most footprints lie in one paint.
+    if first.whole && first.word >> cell::TAG_SHIFT < cell::LIST {
+        observer.cell();
+        return point(sampler, lookup, first.word, canvas.centre, observer);
+    }
+    canvas.rows = Rows::new(canvas.centre, lookup.axes);
+    let mut sum = [0.0; 4];
+    let mut count = 0.0;
+    let mut live = EVERY;
+    let mut place = canvas.centre;
+    let mut own = 0;
+    for _ in 0..=SAMPLES {
+        let pass = canvas.pass(sampler, place);
+        observer.cell();
+        let mask = if pass.whole {
+            live
+        } else {
+            // Rounding must not leave out the one that the pass is for.
+            (canvas.rows.within(pass.low, pass.high) | own) & live
+        };
+        if pass.beyond {
+            live &= !mask;
+        } else {
+            let Canvas { rows, home, .. } = &canvas;
+            let samples = CellRows::new(sampler, rows, *home, pass.cell, canvas.centre);
+            let answer = shown(sampler, lookup, pass.word, &samples, mask, observer);
+            sum = std::array::from_fn(|i| sum[i] + answer.sum[i]);
+            count += to_f32(answer.done.count_ones());
+            live &= !answer.done;
+        }
+        if live == 0 {
+            if count > 0.0 {
+                break;
+            }
+            // None is on the canvas: the lookup's own place stands for all.
+            canvas.rows = Rows::new(canvas.centre, [0.0; 4]);
+            canvas.low = [-FAR; 2];
+            canvas.high = [FAR; 2];
+            live = EVERY;
+        }
+        let next = live.trailing_zeros();
+        own = 1 << next;
+        place = canvas.rows.place(next);
+    }
+    sum.map(|channel| channel / count.max(1.0))
+}
+
+/// A footprint's samples and the canvas, in cells, from the corner of the cell that the lookup's
+/// centre lies in.
+struct Canvas {
+    /// That corner.
+    home: Vec2,
+    centre: Vec2,
+    reach: Vec2,
+    /// Not made before they are needed.
+    rows: Rows,
+    /// The canvas.
+    low: Vec2,
+    high: Vec2,
+}
+
+/// The samples of one pass: those in a fine cell, or in a square of such as show the same, or those
+/// beyond one side of the canvas, which do not count.
+struct Pass {
+    word: u32,
+    /// The corner of the file's cell.
+    cell: Vec2,
+    low: Vec2,
+    high: Vec2,
+    /// All samples lie between.
+    whole: bool,
+    beyond: bool,
+}
+
+impl Canvas {
+    fn new(sampler: &Sampler<'_>, lookup: &Lookup, p: Vec2) -> Self {
+        let s = &sampler.settings;
+        let home = p.map(f32::floor);
+        let centre = [p[0] - home[0], p[1] - home[1]];
+        let low = [0, 1].map(|i| s.offset[i] - home[i]);
+        Self {
+            home,
+            centre,
+            reach: reach(lookup.axes),
+            rows: Rows::default(),
+            low,
+            high: [0, 1].map(|i| s.scale[i] + low[i]),
+        }
+    }
+
+    /// The pass for what lies at `place`.
+    fn pass(&self, sampler: &Sampler<'_>, place: Vec2) -> Pass {
+        let s = &sampler.settings;
+        let fine = fine_cell(sampler, [0, 1].map(|i| place[i] + self.home[i]));
+        let word = word_at(sampler, fine.map(to_u32));
+        let cell = [0, 1].map(|i| (fine[i] * s.cell_per_fine).floor() - self.home[i]);
+        // A list serves what is near, as far as its cell of the file goes.
+        let listed = word >> cell::TAG_SHIFT >= cell::LIST;
+        let room = to_f32(word >> cell::ROOM_SHIFT & cell::ROOM_MASK);
+        let around = if listed { OVERLAP } else { room } * s.cell_per_fine;
+        let mut pass = Pass {
+            word,
+            cell,
+            low: self.low,
+            high: self.high,
+            whole: true,
+            beyond: false,
+        };
+        for i in 0..2 {
+            if listed {
+                pass.low[i] = pass.low[i].max(cell[i]);
+                pass.high[i] = pass.high[i].min(cell[i] + 1.0);
+            }
+            let corner = fine[i] * s.cell_per_fine - self.home[i];
+            pass.low[i] = pass.low[i].max(corner - around);
+            pass.high[i] = pass.high[i].min(corner + around + s.cell_per_fine);
+            pass.whole &= pass.low[i] <= self.centre[i] - self.reach[i];
+            pass.whole &= self.centre[i] + self.reach[i] < pass.high[i];
+        }
+        let [before, behind] = [
+            [0, 1].map(|i| place[i] < self.low[i]),
+            [0, 1].map(|i| place[i] >= self.high[i]),
+        ];
+        if (0..2).any(|i| before[i] || behind[i]) {
+            pass.beyond = true;
+            pass.low = [0, 1].map(|i| if behind[i] { self.high[i] } else { -FAR });
+            pass.high = [0, 1].map(|i| if before[i] { self.low[i] } else { FAR });
+        }
+        pass
+    }
+}
+
+/// Where a footprint's samples lie in uv.
+pub(super) fn places(sampler: &Sampler<'_>, lookup: &Lookup) -> Vec<Vec2> {
+    let s = &sampler.settings;
+    let p = [0, 1].map(|axis| lookup.uv[axis] * s.scale[axis] + s.offset[axis]);
+    let Canvas {
+        home,
+        centre,
+        low,
+        high,
+        ..
+    } = Canvas::new(sampler, lookup, p);
+    let rows = Rows::new(centre, lookup.axes);
+    let samples = (0..SAMPLES).map(|index| rows.place(index));
+    let on = |place: &Vec2| (0..2).all(|i| low[i] <= place[i] && place[i] < high[i]);
+    let mut places: Vec<Vec2> = samples.filter(on).collect();
+    if places.is_empty() {
+        places.push(centre);
+    }
+    let uv = |place: Vec2| [0, 1].map(|i| (place[i] + home[i] - s.offset[i]) / s.scale[i]);
+    places.into_iter().map(uv).collect()
+}
+
+/// What a fine cell with `word` shows to the samples of `live`.
+fn shown<S: Samples>(
+    sampler: &Sampler<'_>,
+    lookup: &Lookup,
+    word: u32,
+    samples: &S,
+    live: u32,
+    observer: &mut impl Observer,
+) -> Answer {
+    let payload = word & cell::PAYLOAD_MASK;
+    let offset = payload.wrapping_mul(item::WORDS);
+    let first = sampler.settings.items.wrapping_add(offset);
+    match word >> cell::TAG_SHIFT {
+        cell::SOLID => {
+            observer.paint(0);
+            let paint = word & cell::PAINT_MASK;
+            let color = paint::linear(sampler, paint, samples.uv(live));
+            Answer::of(color, live)
+        }
+        cell::LIST if sampler.settings.has(Features::PAPER) => {
+            paper::paper(sampler, lookup, first, samples)
+        }
+        cell::LIST => walk(sampler, lookup, first, samples, live, observer),
+        cell::GROUPS => groups::groups(sampler, lookup, first, samples, live, observer),
+        _ => Answer::of([0.0; 4], live),
+    }
+}
+
+/// Column and row of the fine cell that `p`, in cells, lies in.
+pub(super) fn fine_cell(sampler: &Sampler<'_>, p: Vec2) -> Vec2 {
+    let s = &sampler.settings;
+    [0, 1].map(|i| clamp((p[i] * s.fine_per_cell).floor(), 0.0, s.fine_size[i] - 1.0))
+}
+
+/// Word of a fine cell.
+pub(super) fn word_at(sampler: &Sampler<'_>, [x, y]: [u32; 2]) -> u32 {
+    let s = &sampler.settings;
+    let index = y.wrapping_mul(to_u32(s.fine_size[0])).wrapping_add(x);
+    sampler.word(s.cells.wrapping_add(index))
+}

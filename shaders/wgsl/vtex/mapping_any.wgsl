@@ -1,0 +1,57 @@
+//!use core/layout
+//!use vtex/texture
+//!use vtex/settings
+// From the place that a lookup names to the place on the canvas: texture matrix, then address modes.
+
+fn vtex_mapping_linear(vt: VtexTexture, v: vec2f) -> vec2f {
+    let m = vtex_word_float4(vt, VTEX_HEADER_TEXTURE_MATRIX);
+    return vec2f(m.x * v.x + m.z * v.y, m.y * v.x + m.w * v.y);
+}
+
+fn vtex_mapping_point(vt: VtexTexture, uv: vec2f) -> vec2f {
+    if !vtex_settings_has(vt, VTEX_FEATURE_MAPPING) {
+        return uv;
+    }
+    return vtex_mapping_linear(vt, uv) + vtex_word_float2(vt, VTEX_HEADER_TEXTURE_MATRIX + 4u);
+}
+
+fn vtex_mapping_axes(vt: VtexTexture, axes: vec4f) -> vec4f {
+    if !vtex_settings_has(vt, VTEX_FEATURE_MAPPING) {
+        return axes;
+    }
+    return vec4f(vtex_mapping_linear(vt, axes.xy), vtex_mapping_linear(vt, axes.zw));
+}
+
+fn vtex_mapping_axis(t: f32, mode: u32) -> f32 {
+    switch mode {
+        case VTEX_ADDRESS_REPEAT: {
+            return t - floor(t);
+        }
+        case VTEX_ADDRESS_MIRROR: {
+            let turn = t - 2.0 * floor(t * 0.5);
+            return select(turn, 2.0 - turn, turn > 1.0);
+        }
+        default: {
+            return clamp(t, 0.0, 1.0);
+        }
+    }
+}
+
+fn vtex_mapping_address(vt: VtexTexture, uv: vec2f) -> vec2f {
+    return vec2f(vtex_mapping_axis(uv.x, vt.address.x), vtex_mapping_axis(uv.y, vt.address.y));
+}
+
+fn vtex_mapping_axis_outside(t: f32, mode: u32) -> bool {
+    return mode == VTEX_ADDRESS_BORDER && (t < 0.0 || t > 1.0);
+}
+
+// By axis: naga does not read its own SPIR-V back where `&` and `|` join vectors of bool.
+fn vtex_mapping_outside(vt: VtexTexture, uv: vec2f) -> bool {
+    return vtex_mapping_axis_outside(uv.x, vt.address.x)
+        || vtex_mapping_axis_outside(uv.y, vt.address.y);
+}
+
+// Axes along which the filter of image 0 reaches round to the other side.
+fn vtex_mapping_wraps(vt: VtexTexture) -> vec2<bool> {
+    return vt.address == vec2u(VTEX_ADDRESS_REPEAT);
+}

@@ -1,0 +1,22 @@
+//!use vtex/texture
+// No texture matrix, and the address mode clamp along both axes.
+
+fn vtex_mapping_point(vt: VtexTexture, uv: vec2f) -> vec2f {
+    return uv;
+}
+
+fn vtex_mapping_axes(vt: VtexTexture, axes: vec4f) -> vec4f {
+    return axes;
+}
+
+fn vtex_mapping_address(vt: VtexTexture, uv: vec2f) -> vec2f {
+    return clamp(uv, vec2f(0.0), vec2f(1.0));
+}
+
+fn vtex_mapping_outside(vt: VtexTexture, uv: vec2f) -> bool {
+    return false;
+}
+
+fn vtex_mapping_wraps(vt: VtexTexture) -> vec2<bool> {
+    return vec2<bool>(false);
+}

@@ -1,0 +1,11 @@
+//!use core/layout
+//!use vtex/texture
+//!use vtex/paint_words
+// The paint of the distance outline.
+
+// As the last word of an item that fills its cell.
+fn vtex_outline_head(vt: VtexTexture) -> u32 {
+    let paint = vtex_word(vt, VTEX_HEADER_OUTLINE_PAINT);
+    let alpha = vtex_paint_linear_words(vt, paint).y >> 16u;
+    return select(paint, paint | VTEX_ITEM_OPAQUE_BIT, alpha == VTEX_PAINT_UNIT);
+}

@@ -1,0 +1,8 @@
+//!use vtex/texture
+//!use vtex/paint_words
+// Paints, where all are solid.
+
+// Linear light, premultiplied.
+fn vtex_paint_linear(vt: VtexTexture, index: u32, uv: vec2f) -> vec4f {
+    return vtex_paint_unpack(vtex_paint_linear_words(vt, index));
+}

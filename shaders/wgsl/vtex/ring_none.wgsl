@@ -1,0 +1,11 @@
+//!use vtex/texture
+//!use vtex/lookup
+//!use vtex/samples
+//!use vtex/hit
+// No distance outline.
+
+fn vtex_ring(
+    vt: VtexTexture, lookup: VtexLookup, hit: VtexHit, samples: VtexSamples, covered: u32, item: vec4u,
+) -> VtexHit {
+    return hit;
+}

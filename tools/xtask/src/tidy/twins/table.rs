@@ -1,0 +1,85 @@
+//! Functions whose twin has another name, or that have none.
+
+/// File of `cpu/`, its function, and the function of WGSL that it is the twin of.
+pub(super) const OTHERWISE: &[(&str, &str, &str)] = &[
+    ("edge.rs", "is_test", "vtex_groups_is_test"),
+    ("edge.rs", "within", "vtex_msdf_covered"),
+    ("image.rs", "new", "vtex_image_region"),
+    ("picture.rs", "fine_cell", "vtex_cell_fine"),
+    ("picture.rs", "shown", "vtex_lists"),
+    ("picture.rs", "word_at", "vtex_cell_word"),
+    ("rows.rs", "new", "vtex_samples_of_rows"),
+    ("sample.rs", "sample", "vtex_sample_at"),
+    ("settings.rs", "read", "vtex_texture"),
+    ("walk.rs", "finish", "vtex_hit_answer"),
+    ("walk.rs", "new", "vtex_hit_start"),
+    ("walk.rs", "of", "vtex_answer"),
+    ("words.rs", "word_float4", "vtex_word_float2"),
+    ("words.rs", "words", "vtex_word2"),
+    ("words.rs", "words", "vtex_word4"),
+];
+
+/// File of `cpu/`, its functions, and why WGSL has none.
+pub(super) const ONLY_RUST: &[(&str, &[&str], &str)] = &[
+    (
+        "color.rs",
+        &["apply_straight", "decode_channel", "encode_channel"],
+        "WGSL has vectors and select",
+    ),
+    (
+        "edge.rs",
+        &["jumps", "target"],
+        "WGSL has them in each walk: its walks share no loop over a mutable place",
+    ),
+    ("gradient.rs", &["is_zero"], "named for readers"),
+    (
+        "image.rs",
+        &["add"],
+        "the body of a loop of vtex_image_filtered",
+    ),
+    ("paint.rs", &["varies"], "for the baker"),
+    (
+        "picture.rs",
+        &["average", "pass", "point"],
+        "parts of vtex_picture",
+    ),
+    ("picture.rs", &["places"], "for tests and reports"),
+    ("plane.rs", &["sub"], "WGSL has vectors"),
+    ("rows.rs", &["mean"], "a part of vtex_samples_uv"),
+    (
+        "sample.rs",
+        &["lookup"],
+        "a part of vtex_sample_at that tests use too",
+    ),
+    (
+        "samples.rs",
+        &["base"],
+        "one expression of vtex_samples_filled",
+    ),
+    ("segment.rs", &["is_constant"], "for fine cells"),
+    (
+        "walk.rs",
+        &["end", "hide", "part", "take", "value"],
+        "the variants of vtex_hit_draw have what they need of each",
+    ),
+    (
+        "words.rs",
+        &["is_past", "word_of"],
+        "an index past the end is no error in WGSL",
+    ),
+];
+
+/// Function of WGSL, and why the twin has none.
+pub(super) const ONLY_WGSL: &[(&str, &str)] = &[
+    ("vtex_answer_count", "one expression of Answer::of"),
+    (
+        "vtex_outline_head",
+        "settings.rs reads it once for all lookups",
+    ),
+    (
+        "vtex_paint_linear_words",
+        "the twin takes the first two of all words",
+    ),
+    ("vtex_rows_count", "one expression of Rows::mean"),
+    ("vtex_samples_in_cell", "picture.rs makes the struct"),
+];
