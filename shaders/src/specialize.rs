@@ -80,16 +80,10 @@ fn context(key: &SpecKey, BindingSlot { group, binding }: BindingSlot) -> LinkCo
 fn slots(features: u32) -> LinkContext {
     let has = |feature: u32| features & feature != 0;
     let pick = |feature, with, without| if has(feature) { with } else { without };
-    let lists = match (
-        has(Features::LISTS),
-        has(Features::GROUPS),
-        has(Features::PAPER),
-    ) {
-        (false, ..) => "lists_none",
-        (true, false, false) => "lists_draws",
-        (true, false, true) => "lists_draws_paper",
-        (true, true, false) => "lists_groups",
-        (true, true, true) => "lists_groups_paper",
+    let lists = match (has(Features::LISTS), has(Features::GROUPS)) {
+        (false, _) => "lists_none",
+        (true, false) => "lists_draws",
+        (true, true) => "lists_groups",
     };
     let hit = match (has(Features::TRANSLUCENT), has(Features::FOOTPRINT)) {
         (false, false) => "hit_first",
@@ -102,12 +96,6 @@ fn slots(features: u32) -> LinkContext {
         (true, false) => "edge_curves",
         (false, true) => "edge_msdf",
         (true, true) => "edge_any",
-    };
-    let source = match (has(Features::GRADIENTS), has(Features::IMAGES)) {
-        (false, false) => "source_paint",
-        (true, false) => "source_gradient",
-        (false, true) => "source_image",
-        (true, true) => "source_image_gradient",
     };
     let table = [
         (
@@ -123,6 +111,7 @@ fn slots(features: u32) -> LinkContext {
             pick(Features::FOOTPRINT, "picture_rows", "picture_point"),
         ),
         ("lists", lists),
+        ("draws", pick(Features::PAPER, "draws_paper", "draws_walk")),
         ("hit", hit),
         ("edge", edge),
         ("ring", pick(Features::OUTLINE, "ring_outline", "ring_none")),
@@ -130,7 +119,10 @@ fn slots(features: u32) -> LinkContext {
             "paint",
             pick(Features::GRADIENTS, "paint_gradient", "paint_solid"),
         ),
-        ("source", source),
+        (
+            "source",
+            pick(Features::IMAGES, "source_image", "source_paint"),
+        ),
     ];
     table
         .into_iter()

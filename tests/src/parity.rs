@@ -19,9 +19,6 @@ const STEEP_ROUNDING: f32 = 2e-4;
 const POINT_STRAYS: f64 = 2e-5;
 /// Share of lookups of a footprint of which samples may: of 2,000,000 nine did.
 const FOOTPRINT_STRAYS: f64 = 1e-4;
-/// The same with a mapping, after which a place has larger roundings; textures of variants are looked
-/// up 2,000 times, of which two may.
-const MAPPED_STRAYS: f64 = 1e-3;
 /// How many of a footprint's samples may; the difference of one is at most its share of the mean.
 const STRAY_SAMPLES: f32 = 2.0;
 
@@ -56,11 +53,10 @@ impl Subject<'_> {
             STEEP_ROUNDING
         };
         let footprints = self.features & Features::FOOTPRINT != 0;
-        let mapped = self.features & Features::MAPPING != 0;
-        let share = match (footprints, mapped) {
-            (false, _) => POINT_STRAYS,
-            (true, false) => FOOTPRINT_STRAYS,
-            (true, true) => MAPPED_STRAYS,
+        let share = if footprints {
+            FOOTPRINT_STRAYS
+        } else {
+            POINT_STRAYS
         };
         // Samples share a gradient's or an image's colour, so all of them may stray together.
         let shared = self.features & (Features::GRADIENTS | Features::IMAGES) != 0;

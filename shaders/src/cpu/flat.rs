@@ -1,9 +1,8 @@
 //! Whether a part of the canvas has one colour: no twin, for the baker.
 
 use super::math::{clamp, to_f32, to_u32};
-use super::paint::varies;
 use super::picture::{point, word_at};
-use super::{Lookup, Sampler, segment};
+use super::{Lookup, Sampler, paint, segment};
 use crate::layout::{cell, filter, item};
 
 impl Sampler<'_> {
@@ -37,7 +36,7 @@ impl Sampler<'_> {
         let payload = word & cell::PAYLOAD_MASK;
         let flat = match word >> cell::TAG_SHIFT {
             cell::LIST | cell::GROUPS => self.is_flat(payload, low, high),
-            cell::SOLID => !varies(self, word & cell::PAINT_MASK),
+            cell::SOLID => !self.varies(word & cell::PAINT_MASK),
             _ => true,
         };
         if !flat {
@@ -45,6 +44,11 @@ impl Sampler<'_> {
         }
         let lookup = Lookup::new(self, [0.0; 2], [0.0; 4]);
         Some(point(self, &lookup, word, low, &mut ()))
+    }
+
+    /// Whether a paint is no single colour.
+    fn varies(&self, index: u32) -> bool {
+        paint::varies(paint::words(self, index))
     }
 
     /// Whether each entry of a list either fills the box or stays out of it.
@@ -66,7 +70,7 @@ impl Sampler<'_> {
             if kind == item::MSDF || kind == item::IMAGE {
                 return false;
             }
-            if end && varies(self, tail & item::INDEX_MASK) {
+            if end && self.varies(tail & item::INDEX_MASK) {
                 return false;
             }
             if !full && !segment::is_constant(words, low, high) {

@@ -27,7 +27,15 @@ pub(super) fn linear(sampler: &Sampler<'_>, index: u32, uv: [f32; 2]) -> [f32; 4
     [r * a, g * a, b * a, a]
 }
 
-/// Whether a paint is no single colour.
-pub(super) fn varies(sampler: &Sampler<'_>, index: u32) -> bool {
-    words(sampler, index)[1] == paint::GRADIENT
+/// Of a paint's words: whether it is no single colour.
+pub(super) const fn varies([_, second, ..]: [u32; 4]) -> bool {
+    second == paint::GRADIENT
+}
+
+/// Straight, sRGB-encoded.
+pub(super) fn straight(sampler: &Sampler<'_>, words: [u32; 4], uv: [f32; 2]) -> [f32; 4] {
+    if varies(words) {
+        return gradient::gradient(sampler, words[0], uv);
+    }
+    unpack([words[2], words[3]])
 }

@@ -1,4 +1,5 @@
-//! Twin of `vtex/picture_*.wgsl`, `vtex/cell.wgsl` and `vtex/lists_*.wgsl`: what the cells show to a lookup.
+//! Twin of `vtex/picture_*.wgsl`, `vtex/cell.wgsl`, `vtex/lists_*.wgsl` and `vtex/draws_*.wgsl`: what
+//! the cells show to a lookup.
 
 use vtex_format::Features;
 
@@ -60,21 +61,18 @@ fn average(
     observer: &mut impl Observer,
 ) -> [f32; 4] {
     let mut canvas = Canvas::new(sampler, lookup, p);
-    let first = canvas.pass(sampler, canvas.centre);
+    let mut pass = canvas.pass(sampler, canvas.centre);
+    observer.cell();
     // The GPU's text has no branch; most footprints lie in one paint.
-    if first.whole && first.word >> cell::TAG_SHIFT < cell::LIST {
-        observer.cell();
-        return point(sampler, lookup, first.word, canvas.centre, observer);
+    if pass.whole && pass.word >> cell::TAG_SHIFT < cell::LIST {
+        return point(sampler, lookup, pass.word, canvas.centre, observer);
     }
     canvas.rows = Rows::new(canvas.centre, lookup.axes);
     let mut sum = [0.0; 4];
     let mut count = 0.0;
     let mut live = EVERY;
-    let mut place = canvas.centre;
     let mut own = 0;
     for _ in 0..=SAMPLES {
-        let pass = canvas.pass(sampler, place);
-        observer.cell();
         let mask = if pass.whole {
             live
         } else {
@@ -103,7 +101,8 @@ fn average(
         }
         let next = live.trailing_zeros();
         own = 1 << next;
-        place = canvas.rows.place(next);
+        pass = canvas.pass(sampler, canvas.rows.place(next));
+        observer.cell();
     }
     sum.map(|channel| channel / count.max(1.0))
 }

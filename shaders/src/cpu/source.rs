@@ -1,9 +1,9 @@
-//! Twin of `vtex/source_*.wgsl`: the colour of an entry.
+//! Twin of `vtex/source_*.wgsl`: the colour of an entry, as lists composite it.
 
-use super::{Lookup, Sampler, color, gradient, image, paint};
-use crate::layout::{item, paint as layout};
+use super::{Lookup, Sampler, color, image, paint};
+use crate::layout::item;
 
-/// A colour, premultiplied.
+/// Premultiplied.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shown {
     /// sRGB-encoded, as colours are composited.
@@ -11,9 +11,6 @@ pub(super) struct Shown {
     /// In linear light; its alpha is negative where it is not known.
     pub(super) linear: [f32; 4],
 }
-
-/// Linear light that is not known.
-const UNKNOWN: [f32; 4] = [0.0, 0.0, 0.0, -1.0];
 
 pub(super) fn source(sampler: &Sampler<'_>, head: u32, uv: [f32; 2], lookup: &Lookup) -> Shown {
     let index = head & item::INDEX_MASK;
@@ -24,20 +21,18 @@ pub(super) fn source(sampler: &Sampler<'_>, head: u32, uv: [f32; 2], lookup: &Lo
             linear,
         };
     }
-    let [first, second, third, fourth] = paint::words(sampler, index);
-    let varies = second == layout::GRADIENT;
-    let straight = if varies {
-        gradient::gradient(sampler, first, uv)
-    } else {
-        paint::unpack([third, fourth])
-    };
-    let [r, g, b, a] = straight;
+    of_paint(sampler, index, uv)
+}
+
+fn of_paint(sampler: &Sampler<'_>, index: u32, uv: [f32; 2]) -> Shown {
+    let words = paint::words(sampler, index);
+    let [r, g, b, a] = paint::straight(sampler, words, uv);
+    let mut linear = paint::unpack([words[0], words[1]]);
+    if paint::varies(words) {
+        linear[3] = -1.0;
+    }
     Shown {
         encoded: [r * a, g * a, b * a, a],
-        linear: if varies {
-            UNKNOWN
-        } else {
-            paint::unpack([first, second])
-        },
+        linear,
     }
 }

@@ -2,11 +2,11 @@
 //!use vtex/lookup
 //!use vtex/samples
 //!use vtex/answer
-//!use vtex/walk
-// What a fine cell shows where lists draw and clip.
+//!use vtex/draws
+// What a fine cell shows where no list holds groups.
 
 fn vtex_lists(
     vt: VtexTexture, lookup: VtexLookup, word: u32, samples: VtexSamples, live: u32,
 ) -> VtexAnswer {
-    return vtex_walk(vt, lookup, word, samples, live);
+    return vtex_draws(vt, lookup, word, samples, live);
 }

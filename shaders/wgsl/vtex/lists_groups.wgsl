@@ -3,7 +3,7 @@
 //!use vtex/lookup
 //!use vtex/samples
 //!use vtex/answer
-//!use vtex/walk
+//!use vtex/draws
 //!use vtex/groups
 // What a fine cell shows where some lists hold groups.
 
@@ -13,5 +13,5 @@ fn vtex_lists(
     if (word >> VTEX_CELL_TAG_SHIFT) == VTEX_CELL_GROUPS {
         return vtex_groups(vt, lookup, word, samples, live);
     }
-    return vtex_walk(vt, lookup, word, samples, live);
+    return vtex_draws(vt, lookup, word, samples, live);
 }

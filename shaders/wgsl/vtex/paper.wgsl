@@ -70,5 +70,5 @@ fn vtex_paper(
             }
         }
     }
-    return VtexAnswer(vtex_color_decode_premultiplied(color), live);
+    return vtex_answer(vtex_color_decode_premultiplied(color), live);
 }

@@ -118,18 +118,14 @@ impl Compiler {
             .flags(vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR)
             .layout(layout)
             .stage(stage_info(module, stage, &name));
-        let start = Instant::now();
-        // SAFETY: module and layout are of this device, and the layout has the shader's bindings.
-        let made = unsafe {
-            self.device
-                .create_compute_pipelines(vk::PipelineCache::null(), &[info], None)
-        };
-        let time = start.elapsed();
-        Ok((
-            first_pipeline("vkCreateComputePipelines", made)?,
-            time,
-            stage,
-        ))
+        let (pipeline, time) = timed("vkCreateComputePipelines", || {
+            // SAFETY: module and layout are of this device, and the layout has the shader's bindings.
+            unsafe {
+                self.device
+                    .create_compute_pipelines(vk::PipelineCache::null(), &[info], None)
+            }
+        })?;
+        Ok((pipeline, time, stage))
     }
 
     /// A triangle list without vertex buffers onto one colour attachment.
@@ -171,18 +167,14 @@ impl Compiler {
             .dynamic_state(&dynamic)
             .layout(layout)
             .render_pass(self.render_pass()?);
-        let start = Instant::now();
-        // SAFETY: all objects are of this device, and all structures live through the call.
-        let made = unsafe {
-            self.device
-                .create_graphics_pipelines(vk::PipelineCache::null(), &[info], None)
-        };
-        let time = start.elapsed();
-        Ok((
-            first_pipeline("vkCreateGraphicsPipelines", made)?,
-            time,
-            stage,
-        ))
+        let (pipeline, time) = timed("vkCreateGraphicsPipelines", || {
+            // SAFETY: all objects are of this device, and all structures live through the call.
+            unsafe {
+                self.device
+                    .create_graphics_pipelines(vk::PipelineCache::null(), &[info], None)
+            }
+        })?;
+        Ok((pipeline, time, stage))
     }
 
     fn render_pass(&self) -> Result<vk::RenderPass, Error> {
@@ -310,12 +302,17 @@ fn entry_name(entry_point: &str) -> Result<CString, Error> {
     CString::new(entry_point).map_err(|error| Error::Shader(error.to_string()))
 }
 
-fn first_pipeline(
+/// The pipeline that `make` makes, and how long that takes.
+fn timed(
     call: &'static str,
-    made: Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>,
-) -> Result<vk::Pipeline, Error> {
+    make: impl FnOnce() -> Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>,
+) -> Result<(vk::Pipeline, Duration), Error> {
+    let start = Instant::now();
+    let made = make();
+    let time = start.elapsed();
     let made = checked(call, made.map_err(|(_, error)| error))?;
-    made.first().copied().ok_or(Error::Device)
+    let pipeline = made.first().copied().ok_or(Error::Device)?;
+    Ok((pipeline, time))
 }
 
 fn statistic(found: &vk::PipelineExecutableStatisticKHR<'_>) -> Statistic {

@@ -37,7 +37,6 @@ pub(super) const ONLY_RUST: &[(&str, &[&str], &str)] = &[
         &["add"],
         "the body of a loop of vtex_image_filtered",
     ),
-    ("paint.rs", &["varies"], "for the baker"),
     (
         "picture.rs",
         &["average", "pass", "point"],

@@ -6,15 +6,14 @@
 //!use vtex/answer
 //!use vtex/walk
 //!use vtex/paper
-// What a fine cell shows where lists draw and clip, in paper mode.
+// What a list without groups shows, in paper mode.
 
-fn vtex_lists(
+fn vtex_draws(
     vt: VtexTexture, lookup: VtexLookup, word: u32, samples: VtexSamples, live: u32,
 ) -> VtexAnswer {
     let list = (word >> VTEX_CELL_TAG_SHIFT) == VTEX_CELL_LIST;
     if list && vtex_settings_has(vt, VTEX_FEATURE_PAPER) {
-        let answer = vtex_paper(vt, lookup, word, samples, live);
-        return vtex_answer(answer.sum, live);
+        return vtex_paper(vt, lookup, word, samples, live);
     }
     return vtex_walk(vt, lookup, word, samples, live);
 }

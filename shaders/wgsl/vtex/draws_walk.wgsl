@@ -1,0 +1,12 @@
+//!use vtex/texture
+//!use vtex/lookup
+//!use vtex/samples
+//!use vtex/answer
+//!use vtex/walk
+// What a list without groups shows.
+
+fn vtex_draws(
+    vt: VtexTexture, lookup: VtexLookup, word: u32, samples: VtexSamples, live: u32,
+) -> VtexAnswer {
+    return vtex_walk(vt, lookup, word, samples, live);
+}
