@@ -211,10 +211,13 @@ mod rows = "ROWS" {
     SAMPLES = ROWS * COLUMNS;
     /// A mask of all samples.
     EVERY = u32::MAX;
-    /// How far right the samples of a row lie, in eighths of a column less a half, four bits a row from
-    /// the lowest: the order of eight even steps that has the least error over half planes and strips
-    /// of all directions (docs/decisions/0016).
-    SHIFTS = 0x6152_7304;
+    /// How many eighths of a column the samples of a row lie further right than those of the row
+    /// above, within their columns: of all orders of eight even steps, turned by any number of eighths,
+    /// the one with the least error over half planes and strips of all directions, together with
+    /// `ORDER` (docs/decisions/0016).
+    SHIFT = 3;
+    /// The columns that the samples of a row lie in, from the highest: four bits each, from the lowest.
+    ORDER = 0x1302;
 }
 
 /// [`vtex_format::MaskKind`] as stored.

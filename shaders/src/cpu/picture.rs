@@ -6,7 +6,7 @@ use vtex_format::Features;
 use super::cost::Observer;
 use super::math::{clamp, to_f32, to_u32};
 use super::plane::Vec2;
-use super::rows::{CellRows, Rows, reach};
+use super::rows::{CellRows, Phase, Rows, reach};
 use super::samples::{Point, Samples};
 use super::walk::{Answer, walk};
 use super::{Lookup, Sampler, groups, paint, paper};
@@ -67,7 +67,7 @@ fn average(
     if pass.whole && pass.word >> cell::TAG_SHIFT < cell::LIST {
         return point(sampler, lookup, pass.word, canvas.centre, observer);
     }
-    canvas.rows = Rows::new(canvas.centre, lookup.axes);
+    canvas.rows = Rows::new(canvas.centre, lookup.axes, Phase::new(p, lookup.axes));
     let mut sum = [0.0; 4];
     let mut count = 0.0;
     let mut live = EVERY;
@@ -94,7 +94,7 @@ fn average(
                 break;
             }
             // None is on the canvas: the lookup's own place stands for all.
-            canvas.rows = Rows::new(canvas.centre, [0.0; 4]);
+            canvas.rows = Rows::new(canvas.centre, [0.0; 4], Phase::default());
             canvas.low = [-FAR; 2];
             canvas.high = [FAR; 2];
             live = EVERY;
@@ -203,7 +203,7 @@ pub(super) fn places(sampler: &Sampler<'_>, lookup: &Lookup) -> Vec<Vec2> {
         high,
         ..
     } = Canvas::new(sampler, lookup, p);
-    let rows = Rows::new(centre, lookup.axes);
+    let rows = Rows::new(centre, lookup.axes, Phase::new(p, lookup.axes));
     let samples = (0..SAMPLES).map(|index| rows.place(index));
     let on = |place: &Vec2| (0..2).all(|i| low[i] <= place[i] && place[i] < high[i]);
     let mut places: Vec<Vec2> = samples.filter(on).collect();

@@ -77,9 +77,10 @@ fn a_footprint_is_the_box_average_of_an_edge() {
             let expected = ((x - 0.25) / width + 0.5).clamp(0.0, 1.0);
             // The lattice holds the edge to half a unit.
             let rounding = 2e-5 / width;
-            for (got, spacing) in [(got(x, 0.5), 1.0 / 32.0), (got(0.5, x), 1.0 / 8.0)] {
+            // The edge may lie anywhere between two of 32 samples, which move.
+            for got in [got(x, 0.5), got(0.5, x)] {
                 assert!(
-                    (got - expected).abs() <= 0.5 * spacing + rounding,
+                    (got - expected).abs() <= 1.0 / 32.0 + rounding,
                     "{width} at {x}: {got}, expected {expected}"
                 );
             }
@@ -136,8 +137,8 @@ fn a_circle_of_quadratics() {
         count += 1.0;
     }
     let rms = (squares / count).sqrt();
-    // Three of 32 samples.
-    assert!(worst < 3.0 / 32.0 && rms < 0.02, "{worst} {rms}");
+    // Four of 32 samples.
+    assert!(worst < 4.0 / 32.0 && rms < 0.02, "{worst} {rms}");
 }
 
 /// Five corners, each joined to the next but one.

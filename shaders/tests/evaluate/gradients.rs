@@ -291,7 +291,8 @@ fn a_footprint_sees_a_gradient_at_the_mean_of_its_samples() {
             let color = color_at(&gradient, mean).expect("no jumps");
             formula::linear(color).map(|channel| channel * count / all)
         };
-        check(footprints.sample(uv, axes), expected, 1e-4);
+        // A sample counts as in the middle of its room, which is a quarter of the footprint wide.
+        check(footprints.sample(uv, axes), expected, 4e-3);
         partial += u32::from(count > 0.0 && count < all);
     }
     assert!(partial > 50, "{partial}");

@@ -23,7 +23,7 @@ fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
     let home = floor(p);
     let centre = p - home;
     let reach = vtex_rows_reach(axes);
-    var rows = vtex_rows(centre, axes);
+    var rows = vtex_rows(centre, axes, vtex_rows_phase(p, axes));
     var canvas_low = vt.cell_from_uv.zw - home;
     var canvas_high = vt.cell_from_uv.xy + canvas_low;
     var sum = vec4f(0.0);
@@ -67,7 +67,7 @@ fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
                 break;
             }
             // None is on the canvas: the lookup's own place stands for all.
-            rows = vtex_rows(centre, vec4f(0.0));
+            rows = vtex_rows(centre, vec4f(0.0), VtexRowsPhase());
             canvas_low = vec2f(-VTEX_PICTURE_FAR);
             canvas_high = vec2f(VTEX_PICTURE_FAR);
             live = VTEX_SAMPLES_EVERY;
