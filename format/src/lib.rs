@@ -56,8 +56,8 @@ pub use cells::blocks::{
     Block, ListFault, ListFaultKind, MAX_FRAMES, MaskBlock, jump_target, list_blocks, list_frames,
 };
 pub use cells::cell::{
-    CELL_TAG_SHIFT, CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL, MAX_INDEXED, MAX_ITEMS,
-    MAX_LIST_ITEMS,
+    CELL_TAG_SHIFT, CellWord, Entry, EntryKind, MAX_COMMANDS, MAX_ENTRIES_PER_CELL, MAX_INDEXED,
+    MAX_LIST_COMMANDS,
 };
 pub use cells::control::{BlendMode, MaskKind, OPEN_ISOLATED};
 pub use container::directory::{Directory, directory};

@@ -56,9 +56,13 @@ pub fn pack(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
     let per_cell = to_f32(1 << refined.depth);
     let sizes = [fine(0), fine(1), per_cell, 1.0 / per_cell].map(f32::to_bits);
     words[header::FINE as usize..][..4].copy_from_slice(&sizes);
-    words.reserve(refined.words.len() + 4 * refined.items.len() + file.tiles.len() / 4);
+    words.reserve(refined.words.len() + 4 * refined.commands.len() + file.tiles.len() / 4);
     section(&mut words, header::CELLS, &refined.words);
-    section(&mut words, header::ITEMS, refined.items.as_flattened());
+    section(
+        &mut words,
+        header::COMMANDS,
+        refined.commands.as_flattened(),
+    );
     paint_section(&mut words, file);
     let texels = file.tiles.chunks_exact(4);
     let tiles: Vec<u32> = texels

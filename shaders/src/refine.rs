@@ -6,9 +6,9 @@
 //! gives.
 
 mod clip;
+mod commands;
 mod depth;
 mod group;
-mod items;
 mod list;
 mod outline;
 mod room;
@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 use vtex_format::{CellWord, VtexFile};
 
 use crate::layout::{FilterMode, cell};
-use items::Order;
+use commands::Order;
 use list::List;
 use outline::Region;
 
@@ -29,8 +29,8 @@ pub(crate) struct Refined {
     pub(crate) depth: u32,
     /// One word a fine cell, row by row, as [`cell`] says.
     pub(crate) words: Vec<u32>,
-    /// All lists' items.
-    pub(crate) items: Vec<[u32; 4]>,
+    /// All lists' commands.
+    pub(crate) commands: Vec<[u32; 4]>,
 }
 
 /// `halvings` as in [`crate::PackOptions`].
@@ -46,7 +46,7 @@ pub(crate) fn refine(file: &VtexFile, filter: FilterMode, halvings: Option<u32>)
         filter,
         pitch: columns << depth,
         words: vec![0; (columns << depth) * (rows << depth)],
-        items: Vec::new(),
+        commands: Vec::new(),
         shared: BTreeMap::new(),
     };
     for (index, &word) in file.cells.iter().enumerate() {
@@ -69,7 +69,7 @@ pub(crate) fn refine(file: &VtexFile, filter: FilterMode, halvings: Option<u32>)
     Refined {
         depth,
         words: build.words,
-        items: build.items,
+        commands: build.commands,
     }
 }
 
@@ -106,7 +106,7 @@ struct Build {
     filter: FilterMode,
     pitch: usize,
     words: Vec<u32>,
-    items: Vec<[u32; 4]>,
+    commands: Vec<[u32; 4]>,
     /// Where the lists of this cell's parts lie.
     shared: BTreeMap<Vec<[u32; 4]>, u32>,
 }
@@ -144,10 +144,10 @@ impl Build {
             } else {
                 (cell::LIST, Order::FrontToBack)
             };
-            let items = list.items(order);
-            let next = u32::try_from(self.items.len()).unwrap_or(cell::PAYLOAD_MASK);
-            let first = *self.shared.entry(items).or_insert_with_key(|items| {
-                self.items.extend(items);
+            let commands = list.commands(order);
+            let next = u32::try_from(self.commands.len()).unwrap_or(cell::PAYLOAD_MASK);
+            let first = *self.shared.entry(commands).or_insert_with_key(|commands| {
+                self.commands.extend(commands);
                 next
             });
             tag << cell::TAG_SHIFT | first.min(cell::PAYLOAD_MASK)

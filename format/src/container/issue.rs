@@ -206,8 +206,8 @@ issue_table! {
     CELL_PAINT = 5003 Malformed "the paint of a cell does not exist";
     LIST_OFFSET = 5004 Malformed "a list starts outside the entries or inside an entry";
     LIST_END = 5005 Malformed "a list has no last entry within 4,096 entries";
-    LIST_ITEMS = 5006 Malformed "a list has more than 32,768 items";
-    ALL_ITEMS = 5007 Malformed "all lists together have more than 2^23 items";
+    LIST_COMMANDS = 5006 Malformed "a list has more than 32,768 commands";
+    ALL_COMMANDS = 5007 Malformed "all lists together have more than 2^23 commands";
     ENTRY_COUNT = 5010 Malformed "an entry is incomplete";
     ENTRY_WORD = 5011 Malformed "an entry has no meaning";
     ENTRY_PAINT = 5012 Malformed "the paint of an entry does not exist";

@@ -3,7 +3,7 @@
 use super::math::{clamp, to_f32, to_u32};
 use super::picture::{point, word_at};
 use super::{Lookup, Sampler, paint, segment};
-use crate::layout::{cell, filter, item};
+use crate::layout::{cell, cmd, filter};
 
 impl Sampler<'_> {
     /// The one colour, in linear light, premultiplied, that cells show to point lookups with uv in
@@ -59,25 +59,25 @@ impl Sampler<'_> {
         }
         let [units, reach] = s.curve_lattice;
         let [low, high] = [low, high].map(|q| q.map(|q| q * units + reach));
-        let mut at = s.items.wrapping_add(offset.wrapping_mul(item::WORDS));
-        for _ in 0..item::LIMIT {
+        let mut at = s.commands.wrapping_add(offset.wrapping_mul(cmd::WORDS));
+        for _ in 0..cmd::LIMIT {
             let words: [u32; 4] = self.words(at);
             let tail = words[3];
             // Of a curve's segments only the last says what they are.
-            let kind = tail & item::KIND_MASK;
-            let end = tail & item::END_BIT != 0;
-            let full = end && kind == item::FULL;
-            if kind == item::MSDF || kind == item::IMAGE {
+            let kind = tail & cmd::KIND_MASK;
+            let end = tail & cmd::END_BIT != 0;
+            let full = end && kind == cmd::FULL;
+            if kind == cmd::MSDF || kind == cmd::IMAGE {
                 return false;
             }
-            if end && self.varies(tail & item::INDEX_MASK) {
+            if end && self.varies(tail & cmd::INDEX_MASK) {
                 return false;
             }
             if !full && !segment::is_constant(words, low, high) {
                 return false;
             }
-            at = at.wrapping_add(item::WORDS);
-            if tail & item::LAST_BIT != 0 || self.is_past(at) {
+            at = at.wrapping_add(cmd::WORDS);
+            if tail & cmd::LAST_BIT != 0 || self.is_past(at) {
                 break;
             }
         }

@@ -1,4 +1,4 @@
-//! Twin of `vtex/groups.wgsl`: lists that hold groups, whose items lie back to front. One walk,
+//! Twin of `vtex/groups.wgsl`: lists that hold groups, whose commands lie back to front. One walk,
 //! sRGB-encoded, with what lies behind each open group on a stack.
 
 use vtex_format::MAX_FRAMES;
@@ -11,7 +11,7 @@ use super::samples::Samples;
 use super::source::source;
 use super::walk::Answer;
 use super::{Lookup, Sampler};
-use crate::layout::{item, mask};
+use crate::layout::{cmd, mask};
 
 /// What the list shows to those samples of `live` that do at every edge as the first of them does.
 pub(super) fn groups<S: Samples>(
@@ -26,24 +26,24 @@ pub(super) fn groups<S: Samples>(
     let mut stack = Stack::new();
     let mut edge = Edge::<S>::new();
     let mut at = first;
-    for _ in 0..item::LIMIT {
+    for _ in 0..cmd::LIMIT {
         if sampler.is_past(at) {
             break;
         }
         let words: [u32; 4] = sampler.words(at);
         let tail = words[3];
-        at = at.wrapping_add(item::WORDS);
+        at = at.wrapping_add(cmd::WORDS);
         edge.wind(samples, words);
-        observer.item(tail);
-        if tail & item::END_BIT == 0 {
+        observer.command(tail);
+        if tail & cmd::END_BIT == 0 {
             continue;
         }
         let covered = edge.covered(sampler, samples, words, live);
         let next = at;
-        if tail & item::LAST_BIT != 0 {
+        if tail & cmd::LAST_BIT != 0 {
             at = BEYOND;
         }
-        if tail & item::CONTROL_BIT != 0 {
+        if tail & cmd::CONTROL_BIT != 0 {
             let passes = if is_test(tail) {
                 let jumps = jumps(tail, covered);
                 let passes = jumps & leader != 0;
@@ -100,18 +100,18 @@ impl Stack {
         }
     }
 
-    /// Whether the walk is to pass over what follows the control item.
-    fn control(&mut self, item: [u32; 4]) -> bool {
-        match item[3] & item::CONTROL_MASK {
-            item::OPEN => {
-                self.open(item[0] != 0);
+    /// Whether the walk is to pass over what follows the control command.
+    fn control(&mut self, command: [u32; 4]) -> bool {
+        match command[3] & cmd::CONTROL_MASK {
+            cmd::OPEN => {
+                self.open(command[0] != 0);
                 false
             }
-            item::CLOSE => {
-                self.close(item);
+            cmd::CLOSE => {
+                self.close(command);
                 false
             }
-            _ => self.mask(item[0]),
+            _ => self.mask(command[0]),
         }
     }
 
@@ -135,14 +135,14 @@ impl Stack {
         Some(self.saved[self.depth])
     }
 
-    fn close(&mut self, item: [u32; 4]) {
+    fn close(&mut self, command: [u32; 4]) {
         let group = self.color;
         let Some(saved) = self.pop() else {
             return;
         };
-        let weight = f32::from_bits(item[0]) * saved.weight;
-        self.color = if item[2] != 0 {
-            over(item[1], saved.color, group.map(|c| weight * c))
+        let weight = f32::from_bits(command[0]) * saved.weight;
+        self.color = if command[2] != 0 {
+            over(command[1], saved.color, group.map(|c| weight * c))
         } else if weight >= 1.0 {
             group
         } else {

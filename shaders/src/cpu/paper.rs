@@ -7,7 +7,7 @@ use super::samples::Samples;
 use super::source::source;
 use super::walk::Answer;
 use super::{Lookup, Sampler, msdf};
-use crate::layout::item;
+use crate::layout::cmd;
 
 /// What a list shows, front to back. The edges of MSDFs are ramps of constant width (eq. 1) with
 /// coverage as alpha, and may have a ring (eq. 2); other edges are hard.
@@ -21,20 +21,20 @@ pub(super) fn paper<S: Samples>(
     let mut edge = Edge::<S>::new();
     let mut color = [0.0_f32; 4];
     let mut at = first;
-    for _ in 0..item::LIMIT {
+    for _ in 0..cmd::LIMIT {
         if color[3] >= 1.0 || sampler.is_past(at) {
             break;
         }
         let words: [u32; 4] = sampler.words(at);
         let tail = words[3];
-        at = at.wrapping_add(item::WORDS);
+        at = at.wrapping_add(cmd::WORDS);
         edge.wind(samples, words);
-        if tail & item::END_BIT == 0 {
+        if tail & cmd::END_BIT == 0 {
             continue;
         }
         let mut inner = 1.0;
         let mut outer = 0.0;
-        if tail & item::KIND_MASK == item::MSDF {
+        if tail & cmd::KIND_MASK == cmd::MSDF {
             let distance = msdf::distance(sampler, words[0], samples.centre());
             inner = ramp(sampler, distance);
             if s.outline {
@@ -43,7 +43,7 @@ pub(super) fn paper<S: Samples>(
         } else if edge.covered(sampler, samples, words, 1) & 1 == 0 {
             inner = 0.0;
         }
-        if tail & item::CONTROL_BIT != 0 {
+        if tail & cmd::CONTROL_BIT != 0 {
             if jumps(tail, u32::from(inner > 0.0)) & 1 != 0 {
                 at = target(tail, at);
                 continue;
@@ -60,7 +60,7 @@ pub(super) fn paper<S: Samples>(
             let through = 1.0 - color[3];
             color = std::array::from_fn(|i| color[i] + through * entry[i]);
         }
-        if tail & item::LAST_BIT != 0 {
+        if tail & cmd::LAST_BIT != 0 {
             break;
         }
     }

@@ -11,7 +11,7 @@ use super::samples::{Point, Samples};
 use super::walk::{Answer, walk};
 use super::{Lookup, Sampler, groups, paint, paper};
 use crate::layout::rows::{EVERY, SAMPLES};
-use crate::layout::{cell, filter, item};
+use crate::layout::{cell, cmd, filter};
 
 /// Farther than any place in cells.
 const FAR: f32 = 1e30;
@@ -224,8 +224,8 @@ fn shown<S: Samples>(
     observer: &mut impl Observer,
 ) -> Answer {
     let payload = word & cell::PAYLOAD_MASK;
-    let offset = payload.wrapping_mul(item::WORDS);
-    let first = sampler.settings.items.wrapping_add(offset);
+    let offset = payload.wrapping_mul(cmd::WORDS);
+    let first = sampler.settings.commands.wrapping_add(offset);
     match word >> cell::TAG_SHIFT {
         cell::SOLID => {
             observer.paint(0);

@@ -2,7 +2,7 @@
 
 use super::plane::Vec2;
 use super::segment;
-use crate::layout::item::{BASE_LEFT, BASE_RIGHT, EVEN_ODD_BIT};
+use crate::layout::cmd::{BASE_LEFT, BASE_RIGHT, EVEN_ODD_BIT};
 
 /// The samples of a lookup as seen from one cell of the file. A walk speaks of them as bits of a
 /// mask.
@@ -10,7 +10,7 @@ pub(super) trait Samples {
     /// The windings of all samples about one outline; the default is zero.
     type Winding: Copy + Default;
     /// Adds what a segment does to the windings.
-    fn wind(&self, winding: &mut Self::Winding, item: [u32; 4]);
+    fn wind(&self, winding: &mut Self::Winding, command: [u32; 4]);
     /// The samples that an entry with this last word covers.
     fn filled(&self, winding: Self::Winding, tail: u32) -> u32;
     /// The mean of samples, in uv.
@@ -35,8 +35,8 @@ pub(super) struct Point {
 impl Samples for Point {
     type Winding = i32;
 
-    fn wind(&self, winding: &mut i32, item: [u32; 4]) {
-        *winding += segment::winding(item, self.p);
+    fn wind(&self, winding: &mut i32, command: [u32; 4]) {
+        *winding += segment::winding(command, self.p);
     }
 
     fn filled(&self, winding: i32, tail: u32) -> u32 {

@@ -1,7 +1,7 @@
 //! Twin of `vtex/source_*.wgsl`: the colour of an entry, as lists composite it.
 
 use super::{Lookup, Sampler, color, image, paint};
-use crate::layout::item;
+use crate::layout::cmd;
 
 /// Premultiplied.
 #[derive(Clone, Copy, Debug)]
@@ -13,8 +13,8 @@ pub(super) struct Shown {
 }
 
 pub(super) fn source(sampler: &Sampler<'_>, head: u32, uv: [f32; 2], lookup: &Lookup) -> Shown {
-    let index = head & item::INDEX_MASK;
-    if head & item::KIND_MASK == item::IMAGE {
+    let index = head & cmd::INDEX_MASK;
+    if head & cmd::KIND_MASK == cmd::IMAGE {
         let linear = image::entry(sampler, index, uv, lookup);
         return Shown {
             encoded: color::encode_premultiplied(linear),

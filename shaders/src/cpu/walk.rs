@@ -13,7 +13,7 @@ use super::math::to_f32;
 use super::samples::Samples;
 use super::source::{Shown, source};
 use super::{Lookup, Sampler, paint};
-use crate::layout::item;
+use crate::layout::cmd;
 
 /// What samples see.
 #[derive(Clone, Copy, Debug)]
@@ -49,20 +49,20 @@ pub(super) fn walk<S: Samples>(
     let mut hit = Hit::new(live, sampler.settings.has(translucent));
     let mut edge = Edge::<S>::new();
     let mut at = first;
-    for _ in 0..item::LIMIT {
+    for _ in 0..cmd::LIMIT {
         if hit.live == 0 || sampler.is_past(at) {
             break;
         }
         let words: [u32; 4] = sampler.words(at);
-        at = at.wrapping_add(item::WORDS);
+        at = at.wrapping_add(cmd::WORDS);
         edge.wind(samples, words);
-        observer.item(words[3]);
-        if words[3] & item::END_BIT == 0 {
+        observer.command(words[3]);
+        if words[3] & cmd::END_BIT == 0 {
             continue;
         }
         let tail = words[3];
         let covered = edge.covered(sampler, samples, words, hit.live);
-        if tail & item::CONTROL_BIT != 0 {
+        if tail & cmd::CONTROL_BIT != 0 {
             if hit.part(jumps(tail, covered)) {
                 at = target(tail, at);
                 continue;
@@ -73,7 +73,7 @@ pub(super) fn walk<S: Samples>(
             let head = sampler.settings.outline_head;
             hit.draw(sampler, lookup, samples, ring, head, observer);
         }
-        if tail & item::LAST_BIT != 0 {
+        if tail & cmd::LAST_BIT != 0 {
             break;
         }
     }
@@ -138,11 +138,11 @@ impl Hit {
             return;
         }
         observer.paint(head);
-        let opaque = head & item::OPAQUE_BIT != 0;
+        let opaque = head & cmd::OPAQUE_BIT != 0;
         let uv = samples.uv(hit);
         // An opaque paint alone needs no transfer function.
-        if opaque && self.count == 0 && head & item::KIND_MASK != item::IMAGE {
-            let color = paint::linear(sampler, head & item::INDEX_MASK, uv);
+        if opaque && self.count == 0 && head & cmd::KIND_MASK != cmd::IMAGE {
+            let color = paint::linear(sampler, head & cmd::INDEX_MASK, uv);
             self.hide(color, hit);
             return;
         }

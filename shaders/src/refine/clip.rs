@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use vtex_format::{Entry, jump_target};
 
-use super::list::{Node, any_outline, item_count, within};
+use super::list::{Node, any_outline, command_count, within};
 use super::outline::{Outline, Region};
 
 /// Blocks behind tests.
@@ -62,9 +62,9 @@ impl Clip {
         self.tests.iter().any(|test| test.outline.is_some()) || any_outline(&self.body)
     }
 
-    pub(super) fn item_count(&self) -> usize {
-        let of = |test: &Test| test.outline.as_ref().map_or(1, Outline::item_count);
-        self.tests.iter().map(of).sum::<usize>() + item_count(&self.body)
+    pub(super) fn command_count(&self) -> usize {
+        let of = |test: &Test| test.outline.as_ref().map_or(1, Outline::command_count);
+        self.tests.iter().map(of).sum::<usize>() + command_count(&self.body)
     }
 
     /// What shows in a region: nothing, this clip with fewer tests, or its body without any.

@@ -212,8 +212,8 @@ impl Outline {
         self.changes = kept;
     }
 
-    /// Items that it takes at least.
-    pub(super) fn item_count(&self) -> usize {
+    /// Commands that it takes at least.
+    pub(super) fn command_count(&self) -> usize {
         (self.segments.len() + self.changes.len()).max(1)
     }
 

@@ -2,10 +2,10 @@
 
 use vtex_format::{CurveHeader, Entry, EntryKind};
 
-use super::items::Order;
+use super::commands::Order;
 use super::list::List;
 use super::outline::Region;
-use crate::layout::item;
+use crate::layout::cmd;
 
 /// The record of all that lies left of x = 2000, and one of all that lies above y = 2000.
 fn records() -> Vec<u32> {
@@ -51,11 +51,11 @@ fn around(x: f64, y: f64) -> Region {
     }
 }
 
-/// Last words of the items without what a list's order gives them.
+/// Last words of the commands without what a list's order gives them.
 fn tails(list: &List) -> Vec<u32> {
-    let items = list.items(Order::FrontToBack);
-    let kept = item::CONTROL_BIT | item::INDEX_MASK | item::OPAQUE_BIT;
-    items.iter().map(|item| item[3] & kept).collect()
+    let commands = list.commands(Order::FrontToBack);
+    let kept = cmd::CONTROL_BIT | cmd::INDEX_MASK | cmd::OPAQUE_BIT;
+    commands.iter().map(|command| command[3] & kept).collect()
 }
 
 const FULL: EntryKind = EntryKind::Full;
@@ -71,8 +71,8 @@ fn tests_that_are_decided_go() {
     assert_eq!(clip.within(&around(1000.0, 900.0)).solid(), Some(3));
     assert_eq!(clip.within(&around(3000.0, 900.0)).solid(), Some(4));
     let edge = clip.within(&around(2000.0, 900.0));
-    let test = item::CONTROL_BIT | 1;
-    let opaque = item::OPAQUE_BIT;
+    let test = cmd::CONTROL_BIT | 1;
+    let opaque = cmd::OPAQUE_BIT;
     assert_eq!(tails(&edge), [test, opaque | 3, opaque | 4]);
     assert!(!edge.has_groups());
 }
@@ -89,9 +89,9 @@ fn a_union_becomes_the_part_that_counts() {
     assert!(union.within(&around(3000.0, 3000.0)).is_empty());
     // Only the left one is left: it is turned, so that its body follows it.
     let edge = union.within(&around(2000.0, 3000.0));
-    assert_eq!(tails(&edge), [item::CONTROL_BIT, 3]);
+    assert_eq!(tails(&edge), [cmd::CONTROL_BIT, 3]);
     let both = union.within(&around(2000.0, 2000.0));
-    assert_eq!(both.item_count(), union.item_count());
+    assert_eq!(both.command_count(), union.command_count());
 }
 
 #[test]
@@ -108,7 +108,7 @@ fn groups_of_nothing_go() {
         ])
     };
     let shown = group(half).within(&around(1000.0, 1000.0));
-    assert_eq!(shown.item_count(), 6);
+    assert_eq!(shown.command_count(), 6);
     assert!(shown.has_groups());
     assert!(group(half).within(&around(3000.0, 1000.0)).is_empty());
     assert!(group(half).within(&around(1000.0, 3000.0)).is_empty());

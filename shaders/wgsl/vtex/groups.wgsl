@@ -8,7 +8,7 @@
 //!use vtex/edge
 //!use vtex/source
 //!use vtex/blend
-// Lists that hold groups, whose items lie back to front: one walk, sRGB-encoded, with what lies
+// Lists that hold groups, whose commands lie back to front: one walk, sRGB-encoded, with what lies
 // behind each open group on a stack.
 
 // Of an open group.
@@ -32,34 +32,34 @@ struct VtexStack {
 fn vtex_groups(
     vt: VtexTexture, lookup: VtexLookup, word: u32, samples: VtexSamples, live: u32,
 ) -> VtexAnswer {
-    let first = vt.items + (word & VTEX_CELL_PAYLOAD_MASK) * VTEX_ITEM_WORDS;
+    let first = vt.commands + (word & VTEX_CELL_PAYLOAD_MASK) * VTEX_CMD_WORDS;
     let leader = live & (~live + 1u);
     var same = live;
     var stack: VtexStack;
     stack.weight = 1.0;
     var winding = VtexWinding();
     var walks = true;
-    for (var i = 0u; i < VTEX_ITEM_LIMIT; i += 1u) {
+    for (var i = 0u; i < VTEX_CMD_LIMIT; i += 1u) {
         if !walks {
             break;
         }
-        let item = vtex_word4(vt, first + i * VTEX_ITEM_WORDS);
-        winding = vtex_edge_wind(samples, winding, item);
-        if (item.w & VTEX_ITEM_END_BIT) != 0u {
-            let covered = vtex_edge_covered(vt, samples, item, winding, same);
+        let command = vtex_word4(vt, first + i * VTEX_CMD_WORDS);
+        winding = vtex_edge_wind(samples, winding, command);
+        if (command.w & VTEX_CMD_END_BIT) != 0u {
+            let covered = vtex_edge_covered(vt, samples, command, winding, same);
             let leads = (covered & leader) != 0u;
-            walks = (item.w & VTEX_ITEM_LAST_BIT) == 0u;
+            walks = (command.w & VTEX_CMD_LAST_BIT) == 0u;
             winding = VtexWinding();
-            if (item.w & VTEX_ITEM_CONTROL_BIT) != 0u {
+            if (command.w & VTEX_CMD_CONTROL_BIT) != 0u {
                 var jumps = false;
-                if vtex_groups_is_test(item.w) {
+                if vtex_groups_is_test(command.w) {
                     same &= select(~covered, covered, leads);
-                    jumps = leads == ((item.w & VTEX_ITEM_OPAQUE_BIT) != 0u);
+                    jumps = leads == ((command.w & VTEX_CMD_OPAQUE_BIT) != 0u);
                 } else {
-                    jumps = vtex_groups_control(&stack, item);
+                    jumps = vtex_groups_control(&stack, command);
                 }
                 if jumps {
-                    let over = item.w & VTEX_ITEM_INDEX_MASK;
+                    let over = command.w & VTEX_CMD_INDEX_MASK;
                     walks = over != 0u;
                     i += over;
                 }
@@ -67,7 +67,7 @@ fn vtex_groups(
                 same &= select(~covered, covered, leads);
                 if leads {
                     let uv = vtex_samples_uv(samples, same);
-                    let shown = vtex_source(vt, lookup, item.w, uv).encoded;
+                    let shown = vtex_source(vt, lookup, command.w, uv).encoded;
                     stack.color = shown + (1.0 - shown.a) * stack.color;
                 }
             }
@@ -76,25 +76,25 @@ fn vtex_groups(
     return vtex_answer(vtex_color_decode_premultiplied(stack.color), same);
 }
 
-// Whether a control item with this last word is a test or a jump.
+// Whether a control command with this last word is a test or a jump.
 fn vtex_groups_is_test(tail: u32) -> bool {
-    let op = tail & VTEX_ITEM_CONTROL_MASK;
-    return (tail & VTEX_ITEM_KIND_MASK) == VTEX_ITEM_CURVES || op == VTEX_ITEM_JUMP;
+    let op = tail & VTEX_CMD_CONTROL_MASK;
+    return (tail & VTEX_CMD_KIND_MASK) == VTEX_CMD_CURVES || op == VTEX_CMD_JUMP;
 }
 
-// Whether the walk is to pass over what follows the control item.
-fn vtex_groups_control(stack: ptr<function, VtexStack>, item: vec4u) -> bool {
-    switch item.w & VTEX_ITEM_CONTROL_MASK {
-        case VTEX_ITEM_OPEN: {
-            vtex_groups_open(stack, item.x != 0u);
+// Whether the walk is to pass over what follows the control command.
+fn vtex_groups_control(stack: ptr<function, VtexStack>, command: vec4u) -> bool {
+    switch command.w & VTEX_CMD_CONTROL_MASK {
+        case VTEX_CMD_OPEN: {
+            vtex_groups_open(stack, command.x != 0u);
             return false;
         }
-        case VTEX_ITEM_CLOSE: {
-            vtex_groups_close(stack, item);
+        case VTEX_CMD_CLOSE: {
+            vtex_groups_close(stack, command);
             return false;
         }
         default: {
-            return vtex_groups_mask(stack, item.x);
+            return vtex_groups_mask(stack, command.x);
         }
     }
 }
@@ -111,12 +111,12 @@ fn vtex_groups_pop(stack: ptr<function, VtexStack>) -> VtexSaved {
     return (*stack).saved[(*stack).depth];
 }
 
-fn vtex_groups_close(stack: ptr<function, VtexStack>, item: vec4u) {
+fn vtex_groups_close(stack: ptr<function, VtexStack>, command: vec4u) {
     let group = (*stack).color;
     let saved = vtex_groups_pop(stack);
-    let weight = bitcast<f32>(item.x) * saved.weight;
-    if item.z != 0u {
-        (*stack).color = vtex_groups_over(item.y, saved.color, weight * group);
+    let weight = bitcast<f32>(command.x) * saved.weight;
+    if command.z != 0u {
+        (*stack).color = vtex_groups_over(command.y, saved.color, weight * group);
     } else if weight < 1.0 {
         (*stack).color = (1.0 - weight) * saved.color + weight * group;
     }

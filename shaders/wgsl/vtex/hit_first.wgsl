@@ -21,7 +21,7 @@ fn vtex_hit_draw(
     vt: VtexTexture, lookup: VtexLookup, hit: VtexHit, samples: VtexSamples, covered: u32, head: u32,
 ) -> VtexHit {
     let shows = (covered & hit.live) != 0u;
-    let paint = select(hit.paint, head & VTEX_ITEM_INDEX_MASK, shows);
+    let paint = select(hit.paint, head & VTEX_CMD_INDEX_MASK, shows);
     return VtexHit(hit.live & ~covered, hit.shows || shows, paint);
 }
 

@@ -6,7 +6,7 @@
 //!use vtex/paint
 // What the samples of a footprint meet where all paints are opaque. A walk ends where its samples
 // meet a third entry; those that the first two do not cover take another walk. So paints are read
-// once behind the walk and not at each of its items, which costs all lanes that walk with a longer
+// once behind the walk and not at each of its commands, which costs all lanes that walk with a longer
 // one.
 
 struct VtexHit {
@@ -27,7 +27,7 @@ fn vtex_hit_draw(
     vt: VtexTexture, lookup: VtexLookup, hit: VtexHit, samples: VtexSamples, covered: u32, head: u32,
 ) -> VtexHit {
     let met = covered & hit.live;
-    let paint = head & VTEX_ITEM_INDEX_MASK;
+    let paint = head & VTEX_CMD_INDEX_MASK;
     let first = met != 0u && hit.first == 0u;
     let second = met != 0u && !first && hit.second == 0u;
     let third = met != 0u && !first && !second;

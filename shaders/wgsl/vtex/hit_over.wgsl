@@ -33,7 +33,7 @@ fn vtex_hit_draw(
             next.only = shown.linear;
             next.color += (1.0 - hit.color.a) * shown.encoded;
             // An opaque image shows nothing, and hides nothing, outside its rectangle.
-            let ends = next.color.a >= 1.0 || (head & VTEX_ITEM_OPAQUE_BIT) != 0u;
+            let ends = next.color.a >= 1.0 || (head & VTEX_CMD_OPAQUE_BIT) != 0u;
             next.live = select(hit.live, 0u, ends);
         }
     }

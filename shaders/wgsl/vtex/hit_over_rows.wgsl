@@ -50,7 +50,7 @@ fn vtex_hit_draw(
     var next = hit;
     let leads = (met & (~hit.live + 1u)) != 0u;
     // An opaque image shows nothing, and hides nothing, outside its rectangle.
-    let opaque = (head & VTEX_ITEM_OPAQUE_BIT) != 0u && shown.encoded.a > 0.0;
+    let opaque = (head & VTEX_CMD_OPAQUE_BIT) != 0u && shown.encoded.a > 0.0;
     if opaque || (leads && seen.color.a >= 1.0) {
         if met == hit.live {
             next.live = 0u;

@@ -5,7 +5,7 @@
 // No distance outline.
 
 fn vtex_ring(
-    vt: VtexTexture, lookup: VtexLookup, hit: VtexHit, samples: VtexSamples, covered: u32, item: vec4u,
+    vt: VtexTexture, lookup: VtexLookup, hit: VtexHit, samples: VtexSamples, covered: u32, command: vec4u,
 ) -> VtexHit {
     return hit;
 }

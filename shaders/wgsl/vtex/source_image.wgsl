@@ -7,8 +7,8 @@
 // The colour of an entry, a paint or an image.
 
 fn vtex_source(vt: VtexTexture, lookup: VtexLookup, head: u32, uv: vec2f) -> VtexSource {
-    let index = head & VTEX_ITEM_INDEX_MASK;
-    if (head & VTEX_ITEM_KIND_MASK) == VTEX_ITEM_IMAGE {
+    let index = head & VTEX_CMD_INDEX_MASK;
+    if (head & VTEX_CMD_KIND_MASK) == VTEX_CMD_IMAGE {
         let texel = vtex_image_entry(vt, lookup, index, uv);
         return VtexSource(vtex_color_encode_premultiplied(texel), texel);
     }

@@ -5,5 +5,5 @@
 // The colour of an entry, where all have paints.
 
 fn vtex_source(vt: VtexTexture, lookup: VtexLookup, head: u32, uv: vec2f) -> VtexSource {
-    return vtex_source_of_paint(vt, head & VTEX_ITEM_INDEX_MASK, uv);
+    return vtex_source_of_paint(vt, head & VTEX_CMD_INDEX_MASK, uv);
 }

@@ -7,7 +7,7 @@
 //!use vtex/edge
 //!use vtex/ring
 //!use vtex/hit
-// The walk over a cell's list, front to back: one loop over the items, whatever entries they belong
+// The walk over a cell's list, front to back: one loop over the commands, whatever entries they belong
 // to. Compilers that mask lanes instead of jumping pay for the longest walk of a group once here,
 // not once an entry.
 //
@@ -19,42 +19,42 @@ fn vtex_walk(
     vt: VtexTexture, lookup: VtexLookup, word: u32, samples: VtexSamples, live: u32,
 ) -> VtexAnswer {
     let tag = word >> VTEX_CELL_TAG_SHIFT;
-    let first = vt.items + (word & VTEX_CELL_PAYLOAD_MASK) * VTEX_ITEM_WORDS;
+    let first = vt.commands + (word & VTEX_CELL_PAYLOAD_MASK) * VTEX_CMD_WORDS;
     // A cell of one paint has a list of one entry, which fills it.
     let listed = tag == VTEX_CELL_LIST;
-    let only = VTEX_ITEM_END_BIT | VTEX_ITEM_LAST_BIT | (word & VTEX_CELL_PAINT_MASK);
+    let only = VTEX_CMD_END_BIT | VTEX_CMD_LAST_BIT | (word & VTEX_CELL_PAINT_MASK);
     var hit = vtex_hit_start(live);
     var winding = VtexWinding();
     var walks = listed || tag == VTEX_CELL_SOLID;
-    for (var i = 0u; i < VTEX_ITEM_LIMIT; i += 1u) {
+    for (var i = 0u; i < VTEX_CMD_LIMIT; i += 1u) {
         if !walks {
             break;
         }
-        var item = vec4u(0u, 0u, 0u, only);
+        var command = vec4u(0u, 0u, 0u, only);
         if listed {
-            item = vtex_word4(vt, first + i * VTEX_ITEM_WORDS);
+            command = vtex_word4(vt, first + i * VTEX_CMD_WORDS);
         }
-        winding = vtex_edge_wind(samples, winding, item);
-        if (item.w & VTEX_ITEM_END_BIT) != 0u {
-            let covered = vtex_edge_covered(vt, samples, item, winding, hit.live);
-            let control = (item.w & VTEX_ITEM_CONTROL_BIT) != 0u;
+        winding = vtex_edge_wind(samples, winding, command);
+        if (command.w & VTEX_CMD_END_BIT) != 0u {
+            let covered = vtex_edge_covered(vt, samples, command, winding, hit.live);
+            let control = (command.w & VTEX_CMD_CONTROL_BIT) != 0u;
             let drawn = select(covered, 0u, control);
-            hit = vtex_hit_draw(vt, lookup, hit, samples, drawn, item.w);
-            hit = vtex_ring(vt, lookup, hit, samples, drawn, item);
+            hit = vtex_hit_draw(vt, lookup, hit, samples, drawn, command.w);
+            hit = vtex_ring(vt, lookup, hit, samples, drawn, command);
             var over = 0u;
-            // Textures without clips have no control items here: there is nothing to ask the header.
+            // Textures without clips have no control commands here: there is nothing to ask the header.
             if control && (VTEX_KEY_FEATURES & VTEX_FEATURE_CLIPS) != 0u {
-                let inside = (item.w & VTEX_ITEM_OPAQUE_BIT) != 0u;
+                let inside = (command.w & VTEX_CMD_OPAQUE_BIT) != 0u;
                 let jumps = select(~covered, covered, inside);
                 let leads = (jumps & hit.live & (~hit.live + 1u)) != 0u;
                 hit.live &= select(~jumps, jumps, leads);
-                over = select(0u, item.w & VTEX_ITEM_INDEX_MASK, leads);
+                over = select(0u, command.w & VTEX_CMD_INDEX_MASK, leads);
                 // A jump over nothing leaves the list.
                 walks = !leads || over != 0u;
             }
-            // A jump goes on whatever the item it starts from says.
+            // A jump goes on whatever the command it starts from says.
             walks = walks && hit.live != 0u
-                && (over != 0u || (item.w & VTEX_ITEM_LAST_BIT) == 0u);
+                && (over != 0u || (command.w & VTEX_CMD_LAST_BIT) == 0u);
             i += over;
             winding = VtexWinding();
         }

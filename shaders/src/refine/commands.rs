@@ -1,4 +1,4 @@
-//! The items that evaluators walk for a list.
+//! The commands that evaluators walk for a list.
 
 use vtex_format::{Entry, EntryKind};
 
@@ -6,9 +6,9 @@ use super::clip::{Clip, Goal};
 use super::group::Group;
 use super::list::{Node, Part};
 use super::outline::{Outline, Segment};
-use crate::layout::item;
+use crate::layout::cmd;
 
-/// The last item of an entry holds a base winding of four bits.
+/// The last command of an entry holds a base winding of four bits.
 const BASE_LIMIT: i32 = 8;
 /// Lower end of the line that stands for a change of the winding: below every lookup.
 const LOWEST: u32 = 0xffff;
@@ -22,10 +22,10 @@ pub(super) enum Order {
     BackToFront,
 }
 
-/// The items of a list, four words each.
-pub(super) fn items(nodes: &[Node], order: Order) -> Vec<[u32; 4]> {
+/// The commands of a list, four words each.
+pub(super) fn commands(nodes: &[Node], order: Order) -> Vec<[u32; 4]> {
     let mut writer = Writer {
-        items: Vec::new(),
+        commands: Vec::new(),
         jumps: Vec::new(),
         order,
     };
@@ -34,8 +34,8 @@ pub(super) fn items(nodes: &[Node], order: Order) -> Vec<[u32; 4]> {
 }
 
 struct Writer {
-    items: Vec<[u32; 4]>,
-    /// Last items of entries that jump, and the items they jump to.
+    commands: Vec<[u32; 4]>,
+    /// Last commands of entries that jump, and the commands they jump to.
     jumps: Vec<(usize, usize)>,
     order: Order,
 }
@@ -58,26 +58,26 @@ impl Writer {
 
     fn draw(&mut self, Part { entry, outline }: &Part) {
         match outline {
-            None => self.items.push([entry.data, 0, 0, tail(entry)]),
+            None => self.commands.push([entry.data, 0, 0, tail(entry)]),
             Some(outline) => self.outline(outline, tail(entry)),
         }
     }
 
-    /// The items of an outline, of which the last carries `tail`.
+    /// The commands of an outline, of which the last carries `tail`.
     fn outline(&mut self, outline: &Outline, tail: u32) {
-        let first = self.items.len();
+        let first = self.commands.len();
         let base = outline.base.clamp(-BASE_LIMIT, BASE_LIMIT - 1);
-        push_outline(&mut self.items, outline, outline.base - base);
-        if self.items.len() == first {
-            self.items.push([0; 4]);
+        push_outline(&mut self.commands, outline, outline.base - base);
+        if self.commands.len() == first {
+            self.commands.push([0; 4]);
         }
-        let base = (base.cast_unsigned() << item::BASE_RIGHT) >> item::BASE_LEFT;
+        let base = (base.cast_unsigned() << cmd::BASE_RIGHT) >> cmd::BASE_LEFT;
         let rule = if outline.even_odd {
-            item::EVEN_ODD_BIT
+            cmd::EVEN_ODD_BIT
         } else {
             0
         };
-        if let Some(end) = self.items.last_mut() {
+        if let Some(end) = self.commands.last_mut() {
             end[3] |= tail | base | rule;
         }
     }
@@ -86,18 +86,18 @@ impl Writer {
         let mut places = Vec::new();
         let mut ends = Vec::new();
         for test in &clip.tests {
-            places.push(self.items.len());
-            let inside = if test.inside { item::OPAQUE_BIT } else { 0 };
-            let tail = item::END_BIT | item::CONTROL_BIT | inside;
+            places.push(self.commands.len());
+            let inside = if test.inside { cmd::OPAQUE_BIT } else { 0 };
+            let tail = cmd::END_BIT | cmd::CONTROL_BIT | inside;
             match &test.outline {
-                None => self.items.push([0, 0, 0, item::JUMP | tail]),
-                Some(outline) => self.outline(outline, item::CURVES | tail),
+                None => self.commands.push([0, 0, 0, cmd::JUMP | tail]),
+                Some(outline) => self.outline(outline, cmd::CURVES | tail),
             }
-            ends.push(self.items.len() - 1);
+            ends.push(self.commands.len() - 1);
         }
-        let body = self.items.len();
+        let body = self.commands.len();
         self.nodes(&clip.body);
-        let end = self.items.len();
+        let end = self.commands.len();
         for (test, last) in clip.tests.iter().zip(ends) {
             let target = match test.to {
                 Goal::Test(place) => places[place],
@@ -111,51 +111,51 @@ impl Writer {
     fn group(&mut self, group: &Group) {
         let mut masks = Vec::new();
         for mask in &group.masks {
-            self.control([1, 0, 0], item::OPEN);
+            self.control([1, 0, 0], cmd::OPEN);
             self.nodes(&mask.body);
-            masks.push(self.items.len());
-            self.control([mask.kind, 0, 0], item::MASK);
+            masks.push(self.commands.len());
+            self.control([mask.kind, 0, 0], cmd::MASK);
         }
         let isolated = u32::from(group.isolated);
-        self.control([isolated, 0, 0], item::OPEN);
+        self.control([isolated, 0, 0], cmd::OPEN);
         self.nodes(&group.body);
-        self.control([group.opacity, group.mode, isolated], item::CLOSE);
-        let end = self.items.len();
+        self.control([group.opacity, group.mode, isolated], cmd::CLOSE);
+        let end = self.commands.len();
         self.jumps.extend(masks.into_iter().map(|mask| (mask, end)));
     }
 
     fn control(&mut self, [x, y, z]: [u32; 3], op: u32) {
-        let tail = item::END_BIT | item::CONTROL_BIT | op;
-        self.items.push([x, y, z, tail]);
+        let tail = cmd::END_BIT | cmd::CONTROL_BIT | op;
+        self.commands.push([x, y, z, tail]);
     }
 
     fn finish(mut self) -> Vec<[u32; 4]> {
-        let count = self.items.len();
+        let count = self.commands.len();
         for (from, to) in self.jumps {
             let over = if to < count { to - from - 1 } else { 0 };
-            let over = u32::try_from(over).unwrap_or(0) & item::INDEX_MASK;
-            self.items[from][3] |= over;
+            let over = u32::try_from(over).unwrap_or(0) & cmd::INDEX_MASK;
+            self.commands[from][3] |= over;
         }
-        if let Some(last) = self.items.last_mut() {
-            last[3] |= item::LAST_BIT;
+        if let Some(last) = self.commands.last_mut() {
+            last[3] |= cmd::LAST_BIT;
         }
-        self.items
+        self.commands
     }
 }
 
 fn tail(entry: &Entry) -> u32 {
-    let opaque = if entry.opaque { item::OPAQUE_BIT } else { 0 };
+    let opaque = if entry.opaque { cmd::OPAQUE_BIT } else { 0 };
     let kind = match entry.kind {
-        EntryKind::Msdf => item::MSDF,
-        EntryKind::Curves => item::CURVES,
-        EntryKind::Image => item::IMAGE,
-        _ => item::FULL,
+        EntryKind::Msdf => cmd::MSDF,
+        EntryKind::Curves => cmd::CURVES,
+        EntryKind::Image => cmd::IMAGE,
+        _ => cmd::FULL,
     };
-    (entry.index & item::INDEX_MASK) | kind | item::END_BIT | opaque
+    (entry.index & cmd::INDEX_MASK) | kind | cmd::END_BIT | opaque
 }
 
-/// `excess` is winding that the last item's base cannot hold.
-fn push_outline(items: &mut Vec<[u32; 4]>, outline: &Outline, excess: i32) {
+/// `excess` is winding that the last command's base cannot hold.
+fn push_outline(commands: &mut Vec<[u32; 4]>, outline: &Outline, excess: i32) {
     let changes = outline.changes.iter().copied();
     for (height, change) in std::iter::once((0, excess)).chain(changes) {
         let line = Segment {
@@ -163,14 +163,14 @@ fn push_outline(items: &mut Vec<[u32; 4]>, outline: &Outline, excess: i32) {
             down: change > 0,
             line: true,
         };
-        items.extend((0..change.unsigned_abs()).map(|_| encode(&line)));
+        commands.extend((0..change.unsigned_abs()).map(|_| encode(&line)));
     }
-    items.extend(outline.segments.iter().map(encode));
+    commands.extend(outline.segments.iter().map(encode));
 }
 
 fn encode(segment: &Segment) -> [u32; 4] {
     let [a, c, b] = segment.points;
-    let down = if segment.down { item::DOWN_BIT } else { 0 };
-    let line = if segment.line { item::LINE_BIT } else { 0 };
+    let down = if segment.down { cmd::DOWN_BIT } else { 0 };
+    let line = if segment.line { cmd::LINE_BIT } else { 0 };
     [a, c, b, down | line]
 }
