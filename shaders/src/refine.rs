@@ -2,7 +2,7 @@
 //!
 //! A file holds coarse cells, which are small; a lookup wants fine ones, in which hardly an edge is
 //! left to test. A fine cell keeps of its cell's list the segments, as they are, that its lookups
-//! can tell apart. Nothing is cut or rounded, so every lookup gets the answer that the coarse cell
+//! can tell apart. Nothing is cut or rounded, so every lookup gets the result that the coarse cell
 //! gives.
 
 mod clip;

@@ -85,11 +85,11 @@ fn slots(features: u32) -> LinkContext {
         (true, false) => "lists_draws",
         (true, true) => "lists_groups",
     };
-    let hit = match (has(Features::TRANSLUCENT), has(Features::FOOTPRINT)) {
-        (false, false) => "hit_first",
-        (false, true) => "hit_first_rows",
-        (true, false) => "hit_over",
-        (true, true) => "hit_over_rows",
+    let composite = match (has(Features::TRANSLUCENT), has(Features::FOOTPRINT)) {
+        (false, false) => "composite_first",
+        (false, true) => "composite_first_rows",
+        (true, false) => "composite_over",
+        (true, true) => "composite_over_rows",
     };
     let edge = match (has(Features::CURVES), has(Features::MSDF)) {
         (false, false) => "edge_none",
@@ -112,7 +112,7 @@ fn slots(features: u32) -> LinkContext {
         ),
         ("lists", lists),
         ("draws", pick(Features::PAPER, "draws_paper", "draws_walk")),
-        ("hit", hit),
+        ("composite", composite),
         ("edge", edge),
         ("ring", pick(Features::OUTLINE, "ring_outline", "ring_none")),
         (
@@ -120,8 +120,8 @@ fn slots(features: u32) -> LinkContext {
             pick(Features::GRADIENTS, "paint_gradient", "paint_solid"),
         ),
         (
-            "source",
-            pick(Features::IMAGES, "source_image", "source_paint"),
+            "brush",
+            pick(Features::IMAGES, "brush_image", "brush_paint"),
         ),
     ];
     table

@@ -4,12 +4,12 @@
 use vtex_format::MAX_FRAMES;
 
 use super::blend::blend;
+use super::brush::brush;
 use super::color::decode_premultiplied;
 use super::cost::Observer;
 use super::edge::{BEYOND, Edge, is_test, jumps, target};
 use super::samples::Samples;
-use super::source::source;
-use super::walk::Answer;
+use super::walk::Resolved;
 use super::{Lookup, Sampler};
 use crate::layout::{cmd, mask};
 
@@ -21,7 +21,7 @@ pub(super) fn groups<S: Samples>(
     samples: &S,
     mut live: u32,
     observer: &mut impl Observer,
-) -> Answer {
+) -> Resolved {
     let leader = 1 << live.trailing_zeros();
     let mut stack = Stack::new();
     let mut edge = Edge::<S>::new();
@@ -58,14 +58,14 @@ pub(super) fn groups<S: Samples>(
         } else if covered & leader != 0 {
             live &= covered;
             observer.paint(tail);
-            let shown = source(sampler, tail, samples.uv(live), lookup).encoded;
-            let through = 1.0 - shown[3];
-            stack.color = std::array::from_fn(|i| shown[i] + through * stack.color[i]);
+            let brush = brush(sampler, tail, samples.uv(live), lookup).encoded;
+            let through = 1.0 - brush[3];
+            stack.color = std::array::from_fn(|i| brush[i] + through * stack.color[i]);
         } else {
             live &= !covered;
         }
     }
-    Answer::of(decode_premultiplied(stack.color), live)
+    Resolved::of(decode_premultiplied(stack.color), live)
 }
 
 /// Of an open group.
@@ -152,7 +152,7 @@ impl Stack {
 
     fn mask(&mut self, kind: u32) -> bool {
         let content = self.color;
-        let shown = match kind {
+        let value = match kind {
             mask::LUMINANCE => luminance(content),
             mask::LINEAR_LUMINANCE => luminance(decode_premultiplied(content)),
             _ => content[3],
@@ -161,7 +161,7 @@ impl Stack {
             return false;
         };
         self.color = saved.color;
-        let weight = saved.weight * shown;
+        let weight = saved.weight * value;
         let nothing = weight <= 0.0;
         self.weight = if nothing { 1.0 } else { weight };
         nothing

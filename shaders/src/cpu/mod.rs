@@ -5,10 +5,10 @@
 //! Where the WGSL is specialised by choosing modules, the twin asks the header.
 
 mod blend;
+mod brush;
 pub mod color;
 mod cost;
 mod edge;
-mod flat;
 mod gradient;
 mod groups;
 mod image;
@@ -26,7 +26,7 @@ mod sample;
 mod samples;
 mod segment;
 mod settings;
-mod source;
+mod uniform_color;
 mod walk;
 mod words;
 

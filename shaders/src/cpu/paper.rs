@@ -1,11 +1,11 @@
 //! Twin of `vtex/paper.wgsl`: the filter of \[SFG22\], as a baseline.
 
+use super::brush::brush;
 use super::color;
 use super::edge::{Edge, jumps, target};
 use super::math::smoothstep;
 use super::samples::Samples;
-use super::source::source;
-use super::walk::Answer;
+use super::walk::Resolved;
 use super::{Lookup, Sampler, msdf};
 use crate::layout::cmd;
 
@@ -16,7 +16,7 @@ pub(super) fn paper<S: Samples>(
     lookup: &Lookup,
     first: u32,
     samples: &S,
-) -> Answer {
+) -> Resolved {
     let s = &sampler.settings;
     let mut edge = Edge::<S>::new();
     let mut color = [0.0_f32; 4];
@@ -53,8 +53,8 @@ pub(super) fn paper<S: Samples>(
             let mut entry = [0.0; 4];
             for (share, head) in [(inner, tail), ((outer - inner).max(0.0), s.outline_head)] {
                 if share > 0.0 {
-                    let shown = source(sampler, head, samples.uv(1), lookup).encoded;
-                    entry = std::array::from_fn(|i| entry[i] + share * shown[i]);
+                    let brush = brush(sampler, head, samples.uv(1), lookup).encoded;
+                    entry = std::array::from_fn(|i| entry[i] + share * brush[i]);
                 }
             }
             let through = 1.0 - color[3];
@@ -64,7 +64,7 @@ pub(super) fn paper<S: Samples>(
             break;
         }
     }
-    Answer::of(color::decode_premultiplied(color), 1)
+    Resolved::of(color::decode_premultiplied(color), 1)
 }
 
 /// Eq. 1: a smoothstep of half width S about the edge.

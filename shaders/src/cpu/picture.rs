@@ -8,7 +8,7 @@ use super::math::{clamp, to_f32, to_u32};
 use super::plane::Vec2;
 use super::rows::{CellRows, Rows, reach};
 use super::samples::{Point, Samples};
-use super::walk::{Answer, walk};
+use super::walk::{Resolved, walk};
 use super::{Lookup, Sampler, groups, paint, paper};
 use crate::layout::rows::{EVERY, SAMPLES};
 use crate::layout::{cell, cmd, filter};
@@ -50,7 +50,7 @@ pub(super) fn point(
         q,
         p: q.map(|q| q * units + margin),
     };
-    shown(sampler, lookup, word, &samples, 1, observer).sum
+    lists(sampler, lookup, word, &samples, 1, observer).sum
 }
 
 /// The mean of what the cells show to a footprint's samples, pass by pass.
@@ -84,10 +84,10 @@ fn average(
         } else {
             let Canvas { rows, home, .. } = &canvas;
             let samples = CellRows::new(sampler, rows, *home, pass.cell, canvas.centre);
-            let answer = shown(sampler, lookup, pass.word, &samples, mask, observer);
-            sum = std::array::from_fn(|i| sum[i] + answer.sum[i]);
-            count += to_f32(answer.done.count_ones());
-            live &= !answer.done;
+            let resolved = lists(sampler, lookup, pass.word, &samples, mask, observer);
+            sum = std::array::from_fn(|i| sum[i] + resolved.sum[i]);
+            count += to_f32(resolved.done.count_ones());
+            live &= !resolved.done;
         }
         if live == 0 {
             if count > 0.0 {
@@ -215,14 +215,14 @@ pub(super) fn places(sampler: &Sampler<'_>, lookup: &Lookup) -> Vec<Vec2> {
 }
 
 /// What a fine cell with `word` shows to the samples of `live`.
-fn shown<S: Samples>(
+fn lists<S: Samples>(
     sampler: &Sampler<'_>,
     lookup: &Lookup,
     word: u32,
     samples: &S,
     live: u32,
     observer: &mut impl Observer,
-) -> Answer {
+) -> Resolved {
     let payload = word & cell::PAYLOAD_MASK;
     let offset = payload.wrapping_mul(cmd::WORDS);
     let first = sampler.settings.commands.wrapping_add(offset);
@@ -231,14 +231,14 @@ fn shown<S: Samples>(
             observer.paint(0);
             let paint = word & cell::PAINT_MASK;
             let color = paint::linear(sampler, paint, samples.uv(live));
-            Answer::of(color, live)
+            Resolved::of(color, live)
         }
         cell::LIST if sampler.settings.has(Features::PAPER) => {
             paper::paper(sampler, lookup, first, samples)
         }
         cell::LIST => walk(sampler, lookup, first, samples, live, observer),
         cell::GROUPS => groups::groups(sampler, lookup, first, samples, live, observer),
-        _ => Answer::of([0.0; 4], live),
+        _ => Resolved::of([0.0; 4], live),
     }
 }
 

@@ -41,18 +41,18 @@ impl List {
                 break;
             }
         }
-        let source = Source { entries, curves };
-        let entries = &source.entries;
+        let stored = Stored { entries, curves };
+        let entries = &stored.entries;
         let draws = |at: &usize| entries[*at].kind.draws();
-        let flat = || (0..entries.len()).filter(draws).map(Block::Draw).collect();
+        let ungrouped = || (0..entries.len()).filter(draws).map(Block::Draw).collect();
         // What no validator lets in shows without what clips and groups it.
         let blocks = if (0..entries.len()).all(|at| draws(&at)) {
-            flat()
+            ungrouped()
         } else {
-            list_blocks(entries).unwrap_or_else(|_| flat())
+            list_blocks(entries).unwrap_or_else(|_| ungrouped())
         };
         Self {
-            nodes: source.nodes(&blocks),
+            nodes: stored.nodes(&blocks),
         }
     }
 
@@ -167,12 +167,12 @@ impl Part {
 }
 
 /// What blocks name.
-struct Source<'a> {
+struct Stored<'a> {
     entries: Vec<Entry>,
     curves: &'a [u32],
 }
 
-impl Source<'_> {
+impl Stored<'_> {
     fn nodes(&self, blocks: &[Block]) -> Vec<Node> {
         blocks.iter().map(|block| self.node(block)).collect()
     }

@@ -107,9 +107,9 @@ fn groups_of_nothing_go() {
             (EntryKind::Close, false, 0, opacity),
         ])
     };
-    let shown = group(half).within(&around(1000.0, 1000.0));
-    assert_eq!(shown.command_count(), 6);
-    assert!(shown.has_groups());
+    let visible = group(half).within(&around(1000.0, 1000.0));
+    assert_eq!(visible.command_count(), 6);
+    assert!(visible.has_groups());
     assert!(group(half).within(&around(3000.0, 1000.0)).is_empty());
     assert!(group(half).within(&around(1000.0, 3000.0)).is_empty());
     assert!(group(0).within(&around(1000.0, 1000.0)).is_empty());

@@ -4,9 +4,9 @@
 //!use vtex/texture
 //!use vtex/lookup
 //!use vtex/samples
-//!use vtex/answer
+//!use vtex/resolved
 //!use vtex/edge
-//!use vtex/source
+//!use vtex/brush
 //!use vtex/blend
 // Lists that hold groups, whose commands lie back to front: one walk, sRGB-encoded, with what lies
 // behind each open group on a stack.
@@ -31,7 +31,7 @@ struct VtexStack {
 // What the list shows to those samples of `live` that do at every edge as the first of them does.
 fn vtex_groups(
     vt: VtexTexture, lookup: VtexLookup, word: u32, samples: VtexSamples, live: u32,
-) -> VtexAnswer {
+) -> VtexResolved {
     let first = vt.commands + (word & VTEX_CELL_PAYLOAD_MASK) * VTEX_CMD_WORDS;
     let leader = live & (~live + 1u);
     var same = live;
@@ -67,13 +67,13 @@ fn vtex_groups(
                 same &= select(~covered, covered, leads);
                 if leads {
                     let uv = vtex_samples_uv(samples, same);
-                    let shown = vtex_source(vt, lookup, command.w, uv).encoded;
-                    stack.color = shown + (1.0 - shown.a) * stack.color;
+                    let brush = vtex_brush(vt, lookup, command.w, uv).encoded;
+                    stack.color = brush + (1.0 - brush.a) * stack.color;
                 }
             }
         }
     }
-    return vtex_answer(vtex_color_decode_premultiplied(stack.color), same);
+    return vtex_resolved(vtex_color_decode_premultiplied(stack.color), same);
 }
 
 // Whether a control command with this last word is a test or a jump.
@@ -141,15 +141,15 @@ fn vtex_groups_luminance(color: vec4f) -> f32 {
 
 fn vtex_groups_mask(stack: ptr<function, VtexStack>, kind: u32) -> bool {
     let content = (*stack).color;
-    var shown = content.a;
+    var value = content.a;
     if kind == VTEX_MASK_LUMINANCE {
-        shown = vtex_groups_luminance(content);
+        value = vtex_groups_luminance(content);
     } else if kind == VTEX_MASK_LINEAR_LUMINANCE {
-        shown = vtex_groups_luminance(vtex_color_decode_premultiplied(content));
+        value = vtex_groups_luminance(vtex_color_decode_premultiplied(content));
     }
     let saved = vtex_groups_pop(stack);
     (*stack).color = saved.color;
-    let weight = saved.weight * shown;
+    let weight = saved.weight * value;
     let nothing = weight <= 0.0;
     (*stack).weight = select(weight, 1.0, nothing);
     return nothing;

@@ -4,10 +4,10 @@
 //!use vtex/settings
 //!use vtex/lookup
 //!use vtex/samples
-//!use vtex/answer
+//!use vtex/resolved
 //!use vtex/edge
 //!use vtex/msdf
-//!use vtex/source
+//!use vtex/brush
 //!use vtex/outline
 // The filter of [SFG22], as a baseline.
 
@@ -22,7 +22,7 @@ fn vtex_paper_ramp(vt: VtexTexture, distance: f32) -> f32 {
 // alpha, and may have a ring (eq. 2); other edges are hard.
 fn vtex_paper(
     vt: VtexTexture, lookup: VtexLookup, word: u32, samples: VtexSamples, live: u32,
-) -> VtexAnswer {
+) -> VtexResolved {
     let first = vt.commands + (word & VTEX_CELL_PAYLOAD_MASK) * VTEX_CMD_WORDS;
     let width = vtex_word_float(vt, VTEX_HEADER_OUTLINE_WIDTH);
     var color = vec4f(0.0);
@@ -56,11 +56,11 @@ fn vtex_paper(
                 // Shape and ring exclude each other: both lie over what is behind.
                 var entry = vec4f(0.0);
                 if inner > 0.0 {
-                    entry += inner * vtex_source(vt, lookup, command.w, lookup.uv).encoded;
+                    entry += inner * vtex_brush(vt, lookup, command.w, lookup.uv).encoded;
                 }
                 if outer > inner {
                     let head = vtex_outline_head(vt);
-                    entry += (outer - inner) * vtex_source(vt, lookup, head, lookup.uv).encoded;
+                    entry += (outer - inner) * vtex_brush(vt, lookup, head, lookup.uv).encoded;
                 }
                 color += (1.0 - color.a) * entry;
             }
@@ -70,5 +70,5 @@ fn vtex_paper(
             }
         }
     }
-    return vtex_answer(vtex_color_decode_premultiplied(color), live);
+    return vtex_resolved(vtex_color_decode_premultiplied(color), live);
 }

@@ -4,7 +4,7 @@
 //!use vtex/lookup
 //!use vtex/cell
 //!use vtex/samples
-//!use vtex/answer
+//!use vtex/resolved
 //!use vtex/lists
 // The mean of what the cells show to a footprint's samples. Each pass takes the samples in one fine
 // cell, or in a square of such as show the same, or those beyond one side of the canvas, which do not
@@ -57,10 +57,10 @@ fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
         var mask = (vtex_rows_within(rows, low, high) | own) & live;
         mask = select(mask, live, whole);
         let samples = vtex_samples_of_rows(vt, rows, home, cell, centre);
-        let answer = vtex_lists(vt, lookup, select(word, VTEX_CELL_EMPTY, beyond), samples, mask);
-        let done = select(answer.done, mask, beyond);
-        sum += answer.sum;
-        count += select(vtex_answer_count(done), 0.0, beyond);
+        let resolved = vtex_lists(vt, lookup, select(word, VTEX_CELL_EMPTY, beyond), samples, mask);
+        let done = select(resolved.done, mask, beyond);
+        sum += resolved.sum;
+        count += select(vtex_resolved_count(done), 0.0, beyond);
         live &= ~done;
         if live == 0u {
             if count > 0.0 {

@@ -3,10 +3,10 @@
 //!use vtex/texture
 //!use vtex/lookup
 //!use vtex/samples
-//!use vtex/answer
+//!use vtex/resolved
 //!use vtex/edge
 //!use vtex/ring
-//!use vtex/hit
+//!use vtex/composite
 // The walk over a cell's list, front to back: one loop over the commands, whatever entries they belong
 // to. Compilers that mask lanes instead of jumping pay for the longest walk of a group once here,
 // not once an entry.
@@ -17,13 +17,13 @@
 
 fn vtex_walk(
     vt: VtexTexture, lookup: VtexLookup, word: u32, samples: VtexSamples, live: u32,
-) -> VtexAnswer {
+) -> VtexResolved {
     let tag = word >> VTEX_CELL_TAG_SHIFT;
     let first = vt.commands + (word & VTEX_CELL_PAYLOAD_MASK) * VTEX_CMD_WORDS;
     // A cell of one paint has a list of one entry, which fills it.
     let listed = tag == VTEX_CELL_LIST;
     let only = VTEX_CMD_END_BIT | VTEX_CMD_LAST_BIT | (word & VTEX_CELL_PAINT_MASK);
-    var hit = vtex_hit_start(live);
+    var composite = vtex_composite_start(live);
     var winding = VtexWinding();
     var walks = listed || tag == VTEX_CELL_SOLID;
     for (var i = 0u; i < VTEX_CMD_LIMIT; i += 1u) {
@@ -36,28 +36,28 @@ fn vtex_walk(
         }
         winding = vtex_edge_wind(samples, winding, command);
         if (command.w & VTEX_CMD_END_BIT) != 0u {
-            let covered = vtex_edge_covered(vt, samples, command, winding, hit.live);
+            let covered = vtex_edge_covered(vt, samples, command, winding, composite.live);
             let control = (command.w & VTEX_CMD_CONTROL_BIT) != 0u;
             let drawn = select(covered, 0u, control);
-            hit = vtex_hit_draw(vt, lookup, hit, samples, drawn, command.w);
-            hit = vtex_ring(vt, lookup, hit, samples, drawn, command);
+            composite = vtex_composite_draw(vt, lookup, composite, samples, drawn, command.w);
+            composite = vtex_ring(vt, lookup, composite, samples, drawn, command);
             var over = 0u;
             // Textures without clips have no control commands here: there is nothing to ask the header.
             if control && (VTEX_KEY_FEATURES & VTEX_FEATURE_CLIPS) != 0u {
                 let inside = (command.w & VTEX_CMD_OPAQUE_BIT) != 0u;
                 let jumps = select(~covered, covered, inside);
-                let leads = (jumps & hit.live & (~hit.live + 1u)) != 0u;
-                hit.live &= select(~jumps, jumps, leads);
+                let leads = (jumps & composite.live & (~composite.live + 1u)) != 0u;
+                composite.live &= select(~jumps, jumps, leads);
                 over = select(0u, command.w & VTEX_CMD_INDEX_MASK, leads);
                 // A jump over nothing leaves the list.
                 walks = !leads || over != 0u;
             }
             // A jump goes on whatever the command it starts from says.
-            walks = walks && hit.live != 0u
+            walks = walks && composite.live != 0u
                 && (over != 0u || (command.w & VTEX_CMD_LAST_BIT) == 0u);
             i += over;
             winding = VtexWinding();
         }
     }
-    return vtex_hit_answer(vt, lookup, hit, samples);
+    return vtex_composite_resolve(vt, lookup, composite, samples);
 }

@@ -45,7 +45,7 @@ fn bake(drawing: Drawing, config: &BakeConfig) -> VtexFile {
 }
 
 fn drawing(canvas: f64, items: Vec<Item>) -> Drawing {
-    Drawing::flat([canvas; 2], items)
+    Drawing::ungrouped([canvas; 2], items)
 }
 
 fn alone(canvas_size: [f64; 2], shape: &Shape) -> Drawing {
@@ -56,7 +56,7 @@ fn alone(canvas_size: [f64; 2], shape: &Shape) -> Drawing {
         fill_rule: shape.fill_rule,
         source: shape.source,
     });
-    Drawing::flat(canvas_size, vec![shape])
+    Drawing::ungrouped(canvas_size, vec![shape])
 }
 
 /// What a dense check finds in the MSDF of one shape that is baked alone.

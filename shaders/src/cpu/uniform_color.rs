@@ -9,7 +9,7 @@ impl Sampler<'_> {
     /// The one colour, in linear light, premultiplied, that cells show to point lookups with uv in
     /// the box from `low` to `high`, inside the canvas before the texture matrix; `None` where they
     /// may show more.
-    pub fn flat_color(&self, low: [f32; 2], high: [f32; 2]) -> Option<[f32; 4]> {
+    pub fn uniform_color(&self, low: [f32; 2], high: [f32; 2]) -> Option<[f32; 4]> {
         let s = &self.settings;
         let place = |uv: [f32; 2]| [0, 1].map(|axis| uv[axis] * s.scale[axis] + s.offset[axis]);
         let span = [place(low), place(high)];
@@ -34,12 +34,12 @@ impl Sampler<'_> {
             [0, 1].map(|axis| clamp(p[axis], ends[0][axis], ends[1][axis]) - corner[axis])
         });
         let payload = word & cell::PAYLOAD_MASK;
-        let flat = match word >> cell::TAG_SHIFT {
-            cell::LIST | cell::GROUPS => self.is_flat(payload, low, high),
+        let uniform = match word >> cell::TAG_SHIFT {
+            cell::LIST | cell::GROUPS => self.is_uniform(payload, low, high),
             cell::SOLID => !self.varies(word & cell::PAINT_MASK),
             _ => true,
         };
-        if !flat {
+        if !uniform {
             return None;
         }
         let lookup = Lookup::new(self, [0.0; 2], [0.0; 4]);
@@ -52,7 +52,7 @@ impl Sampler<'_> {
     }
 
     /// Whether each entry of a list either fills the box or stays out of it.
-    fn is_flat(&self, offset: u32, low: [f32; 2], high: [f32; 2]) -> bool {
+    fn is_uniform(&self, offset: u32, low: [f32; 2], high: [f32; 2]) -> bool {
         let s = &self.settings;
         if s.filter != filter::POINT || s.outline {
             return false;

@@ -2,15 +2,15 @@
 //!use core/layout
 //!use vtex/texture
 //!use vtex/lookup
-//!use vtex/source_of_paint
+//!use vtex/brush_of_paint
 //!use vtex/image_entry
 // The colour of an entry, a paint or an image.
 
-fn vtex_source(vt: VtexTexture, lookup: VtexLookup, head: u32, uv: vec2f) -> VtexSource {
+fn vtex_brush(vt: VtexTexture, lookup: VtexLookup, head: u32, uv: vec2f) -> VtexBrushColor {
     let index = head & VTEX_CMD_INDEX_MASK;
     if (head & VTEX_CMD_KIND_MASK) == VTEX_CMD_IMAGE {
         let texel = vtex_image_entry(vt, lookup, index, uv);
-        return VtexSource(vtex_color_encode_premultiplied(texel), texel);
+        return VtexBrushColor(vtex_color_encode_premultiplied(texel), texel);
     }
-    return vtex_source_of_paint(vt, index, uv);
+    return vtex_brush_of_paint(vt, index, uv);
 }
