@@ -3,8 +3,8 @@
 use vtex_format::{
     AddressMode, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CellWord, CurveHeader, CurveLattice,
     DistanceOutline, Entry, EntryKind, Features, Gradient, GradientShape, GradientStop, Grid,
-    Image, MAX_FRAMES, Meta, PaintRecord, SHALLOW_FRAMES, SamplerSettings, SpecKey, Spread,
-    VtexFile,
+    Image, MAX_BLEND_DEPTH, Meta, PaintRecord, SHALLOW_BLEND_DEPTH, SamplerSettings, SpecKey,
+    Spread, VtexFile,
 };
 
 use crate::random::Random;
@@ -335,12 +335,12 @@ fn scoped_list(r: &mut Random, file: &VtexFile, features: u32, records: &[u32]) 
         groups: features & Features::GROUPS != 0,
         blends: features & Features::BLENDS != 0,
     };
-    let frames = if features & Features::DEEP_GROUPS != 0 {
-        MAX_FRAMES
+    let depth = if features & Features::DEEP_GROUPS != 0 {
+        MAX_BLEND_DEPTH
     } else {
-        SHALLOW_FRAMES
+        SHALLOW_BLEND_DEPTH
     };
-    let mut entries = scopes::random_list(r, wants, records, frames);
+    let mut entries = scopes::random_list(r, wants, records, depth);
     for entry in &mut entries {
         if entry.kind.draws() {
             *entry = random_entry(r, file, features, records, false);

@@ -8,8 +8,8 @@ mod reference;
 mod tree;
 
 use vtex_format::{
-    CellWord, CurveHeader, CurveLattice, Entry, Grid, MAX_FRAMES, Meta, PaintRecord, SpecKey,
-    VtexFile, list_frames,
+    CellWord, CurveHeader, CurveLattice, Entry, Grid, MAX_BLEND_DEPTH, Meta, PaintRecord, SpecKey,
+    VtexFile, list_blend_depth,
 };
 
 use crate::random::Random;
@@ -43,7 +43,7 @@ impl Drawing {
         let mut r = Random::new(seed);
         let records = (0..8).map(|_| random_record(&mut r)).collect();
         let paints = (0..8).map(|_| random_paint(&mut r)).collect();
-        let tree = |_| random_tree(&mut r, wants, MAX_FRAMES);
+        let tree = |_| random_tree(&mut r, wants, MAX_BLEND_DEPTH);
         Self {
             cells: (0..cells).map(tree).collect(),
             paints,
@@ -94,12 +94,12 @@ impl Drawing {
     }
 }
 
-/// A tree that takes few enough frames.
-fn random_tree(r: &mut Random, wants: Wants, frames: u32) -> Vec<Node> {
+/// A tree that needs at most `depth` levels of the blend stack.
+fn random_tree(r: &mut Random, wants: Wants, depth: u32) -> Vec<Node> {
     loop {
         let nodes = tree::random_nodes(r, wants, 4);
         let entries = encode::entries(&nodes, &[0; RECORDS]);
-        if list_frames(&entries).is_ok_and(|taken| taken <= frames) {
+        if list_blend_depth(&entries).is_ok_and(|taken| taken <= depth) {
             return nodes;
         }
     }
@@ -107,17 +107,12 @@ fn random_tree(r: &mut Random, wants: Wants, frames: u32) -> Vec<Node> {
 
 /// The list of a random tree, none of its entries marked last or opaque; tests name some of
 /// `records`, the places of curve records, of which there may be none where no clip is wanted.
-pub(crate) fn random_list(
-    r: &mut Random,
-    wants: Wants,
-    records: &[u32],
-    frames: u32,
-) -> Vec<Entry> {
+pub(crate) fn random_list(r: &mut Random, wants: Wants, records: &[u32], depth: u32) -> Vec<Entry> {
     let mut places = [0; RECORDS];
     if let Some(count) = u32::try_from(records.len()).ok().filter(|&count| count > 0) {
         places = places.map(|_| records[r.below(count) as usize]);
     }
-    encode::entries(&random_tree(r, wants, frames), &places)
+    encode::entries(&random_tree(r, wants, depth), &places)
 }
 
 /// The lattice of all records.

@@ -16,9 +16,9 @@ use std::ops::Range;
 use super::cell::{Entry, EntryKind};
 use super::control::{BlendMode, OPEN_ISOLATED};
 
-/// Groups and clips that may be nested: evaluators keep an array of so many frames. The baker
+/// Groups and clips that may be nested: evaluators keep a blend stack of so many levels. The baker
 /// makes an image of what nests deeper.
-pub const MAX_FRAMES: u32 = 32;
+pub const MAX_BLEND_DEPTH: u32 = 32;
 /// Nested clips that parsing enters, before clips with one end are joined. Bounds its recursion.
 const MAX_DEPTH: u32 = 64;
 
@@ -85,9 +85,9 @@ pub enum ListFaultKind {
     /// A group that is not isolated and blends other than normally.
     #[error("a blend mode of a group that is not isolated")]
     Blend,
-    /// More than [`MAX_FRAMES`] groups and clips in one another.
+    /// More than [`MAX_BLEND_DEPTH`] groups and clips in one another.
     #[error("groups and clips too deep in one another")]
-    Frames,
+    BlendDepth,
 }
 
 /// Where the jump of the `Test` or `Mask` at `at` ends.
@@ -98,8 +98,8 @@ pub const fn jump_target(at: usize, entry: &Entry) -> usize {
 /// The blocks of a list, front to back; `entries` are all of it.
 ///
 /// # Errors
-/// [`ListFault`] with the first rule that is broken, [`ListFaultKind::Frames`] only where that is
-/// far beyond the bound: [`list_frames`] tells exactly.
+/// [`ListFault`] with the first rule that is broken, [`ListFaultKind::BlendDepth`] only where that is
+/// far beyond the bound: [`list_blend_depth`] tells exactly.
 pub fn list_blocks(entries: &[Entry]) -> Result<Vec<Block>, ListFault> {
     let parser = Parser {
         entries,
@@ -108,39 +108,39 @@ pub fn list_blocks(entries: &[Entry]) -> Result<Vec<Block>, ListFault> {
     parser.blocks(0..entries.len(), 0)
 }
 
-/// How many frames an evaluator needs for a list: one for each group and clip in one another, and
+/// How many levels of the blend stack a list needs at most: one for each group and clip in one another, and
 /// inside a clip's tests one for each place where a jump over it may still end. At most
-/// [`MAX_FRAMES`]; 0 without control entries.
+/// [`MAX_BLEND_DEPTH`]; 0 without control entries.
 ///
 /// # Errors
 /// [`ListFault`] with the first rule that is broken.
-pub fn list_frames(entries: &[Entry]) -> Result<u32, ListFault> {
+pub fn list_blend_depth(entries: &[Entry]) -> Result<u32, ListFault> {
     // Lists that only draw need no parsing.
     if entries.iter().all(|entry| entry.kind.draws()) {
         return Ok(0);
     }
-    let frames = frames_of(&list_blocks(entries)?, entries);
-    if frames > MAX_FRAMES {
-        return Err(fault(0, ListFaultKind::Frames));
+    let depth = depth_of(&list_blocks(entries)?, entries);
+    if depth > MAX_BLEND_DEPTH {
+        return Err(fault(0, ListFaultKind::BlendDepth));
     }
-    Ok(frames)
+    Ok(depth)
 }
 
 const fn fault(entry: usize, kind: ListFaultKind) -> ListFault {
     ListFault { entry, kind }
 }
 
-fn frames_of(blocks: &[Block], entries: &[Entry]) -> u32 {
+fn depth_of(blocks: &[Block], entries: &[Entry]) -> u32 {
     let of = |block: &Block| match block {
         Block::Draw(_) => 0,
         Block::Clip { tests, body } => {
-            // While tests run, each place where a jump may still end takes a frame. Behind them one
-            // frame stands for the whole clip.
-            waiting_jumps(tests.clone(), entries).max(1 + frames_of(body, entries))
+            // While tests run, each place where a jump may still end takes a level. Behind them one
+            // level stands for the whole clip.
+            waiting_jumps(tests.clone(), entries).max(1 + depth_of(body, entries))
         }
         Block::Group { masks, body, .. } => {
             let masks = masks.iter().map(|mask| &mask.body);
-            let inner = masks.chain([body]).map(|body| frames_of(body, entries));
+            let inner = masks.chain([body]).map(|body| depth_of(body, entries));
             1 + inner.max().unwrap_or(0)
         }
     };
@@ -152,7 +152,7 @@ fn waiting_jumps(tests: Range<usize>, entries: &[Entry]) -> u32 {
     let mut waiting: Vec<usize> = Vec::new();
     let mut most = 0;
     for at in tests {
-        // Jumps that end here have arrived; jumps to one place share a frame.
+        // Jumps that end here have arrived; jumps to one place share a level.
         waiting.retain(|&target| target > at);
         let target = jump_target(at, &entries[at]);
         if !waiting.contains(&target) {
@@ -177,8 +177,8 @@ fn bracket_ends(entries: &[Entry]) -> Result<Vec<usize>, ListFault> {
             _ => {}
         }
         // Refused here already: it bounds how deep `Parser` recurses into groups.
-        if open.len() > MAX_FRAMES as usize {
-            return Err(fault(at, ListFaultKind::Frames));
+        if open.len() > MAX_BLEND_DEPTH as usize {
+            return Err(fault(at, ListFaultKind::BlendDepth));
         }
     }
     match open.pop() {
@@ -196,7 +196,7 @@ struct Parser<'a> {
 impl Parser<'_> {
     fn blocks(&self, range: Range<usize>, depth: u32) -> Result<Vec<Block>, ListFault> {
         if depth > MAX_DEPTH {
-            return Err(fault(range.start, ListFaultKind::Frames));
+            return Err(fault(range.start, ListFaultKind::BlendDepth));
         }
         let mut blocks = Vec::new();
         let mut at = range.start;

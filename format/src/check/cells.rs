@@ -2,7 +2,7 @@
 
 use std::cell::OnceCell;
 
-use crate::cells::blocks::{ListFaultKind, list_frames};
+use crate::cells::blocks::{ListFaultKind, list_blend_depth};
 use crate::cells::cell::{
     CellWord, Entry, EntryKind, LAST_BIT, MAX_COMMANDS, MAX_ENTRIES_PER_CELL, MAX_LIST_COMMANDS,
 };
@@ -180,7 +180,7 @@ fn controls(entries: &[u32], first: usize, issues: &mut Issues) {
     let Some(list) = list_entries(entries, first) else {
         return;
     };
-    let Err(fault) = list_frames(&list) else {
+    let Err(fault) = list_blend_depth(&list) else {
         return;
     };
     let kind = match fault.kind {
@@ -188,7 +188,7 @@ fn controls(entries: &[u32], first: usize, issues: &mut Issues) {
         ListFaultKind::Bracket => issue::LIST_GROUP,
         ListFaultKind::Mask => issue::LIST_MASK,
         ListFaultKind::Blend => issue::LIST_BLEND,
-        ListFaultKind::Frames => issue::LIST_FRAMES,
+        ListFaultKind::BlendDepth => issue::LIST_BLEND_DEPTH,
     };
     let message = format_args!("entry {} of the list at {first}", fault.entry);
     issues.add(kind, Tag::ENTR, 8 * (first + fault.entry) as u64, message);

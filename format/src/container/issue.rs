@@ -224,7 +224,7 @@ issue_table! {
     LIST_GROUP = 5031 Malformed "a group in a list lacks its open or its close";
     LIST_MASK = 5032 Malformed "a mask in a list is not followed by its group";
     LIST_BLEND = 5033 Malformed "a group that is not isolated has a blend mode";
-    LIST_FRAMES = 5034 Malformed "a list needs more than 32 frames";
+    LIST_BLEND_DEPTH = 5034 Malformed "a list needs more than 32 levels of the blend stack";
 
     TILE_PARTS = 6001 Malformed "the layer ranges of the TILE sections do not cover all layers in order";
     TILE_BYTES = 6002 Malformed "the length of the tiles differs from what the layers require";

@@ -1,7 +1,7 @@
 //! Twin of `vtex/groups.wgsl`: lists that hold groups, whose commands lie back to front. One walk,
-//! sRGB-encoded, with what lies behind each open group on a stack.
+//! sRGB-encoded, with what lies behind each open group on a blend stack.
 
-use vtex_format::MAX_FRAMES;
+use vtex_format::MAX_BLEND_DEPTH;
 
 use super::blend::blend;
 use super::brush::brush;
@@ -23,7 +23,7 @@ pub(super) fn groups<S: Samples>(
     observer: &mut impl Observer,
 ) -> Resolved {
     let leader = 1 << live.trailing_zeros();
-    let mut stack = Stack::new();
+    let mut stack = BlendStack::new();
     let mut edge = Edge::<S>::new();
     let mut at = first;
     for _ in 0..cmd::LIMIT {
@@ -68,9 +68,9 @@ pub(super) fn groups<S: Samples>(
     Resolved::of(decode_premultiplied(stack.color), live)
 }
 
-/// Of an open group.
+/// A level of the blend stack: an open group or mask.
 #[derive(Clone, Copy, Debug)]
-struct Saved {
+struct BlendLevel {
     /// What lies behind it.
     color: [f32; 4],
     /// What its masks make of its opacity.
@@ -78,17 +78,17 @@ struct Saved {
 }
 
 /// The colour so far and what lies behind the open groups; all sRGB-encoded, premultiplied.
-struct Stack {
+struct BlendStack {
     color: [f32; 4],
     /// Of masks whose group has not begun.
     weight: f32,
     depth: usize,
-    saved: [Saved; MAX_FRAMES as usize],
+    levels: [BlendLevel; MAX_BLEND_DEPTH as usize],
 }
 
-impl Stack {
+impl BlendStack {
     const fn new() -> Self {
-        let nothing = Saved {
+        let nothing = BlendLevel {
             color: [0.0; 4],
             weight: 0.0,
         };
@@ -96,7 +96,7 @@ impl Stack {
             color: [0.0; 4],
             weight: 1.0,
             depth: 0,
-            saved: [nothing; MAX_FRAMES as usize],
+            levels: [nothing; MAX_BLEND_DEPTH as usize],
         }
     }
 
@@ -117,8 +117,8 @@ impl Stack {
 
     fn open(&mut self, isolated: bool) {
         // No list that a validator lets in has more groups.
-        if let Some(saved) = self.saved.get_mut(self.depth) {
-            *saved = Saved {
+        if let Some(level) = self.levels.get_mut(self.depth) {
+            *level = BlendLevel {
                 color: self.color,
                 weight: self.weight,
             };
@@ -130,23 +130,23 @@ impl Stack {
         }
     }
 
-    fn pop(&mut self) -> Option<Saved> {
+    fn pop(&mut self) -> Option<BlendLevel> {
         self.depth = self.depth.checked_sub(1)?;
-        Some(self.saved[self.depth])
+        Some(self.levels[self.depth])
     }
 
     fn close(&mut self, command: [u32; 4]) {
         let group = self.color;
-        let Some(saved) = self.pop() else {
+        let Some(level) = self.pop() else {
             return;
         };
-        let weight = f32::from_bits(command[0]) * saved.weight;
+        let weight = f32::from_bits(command[0]) * level.weight;
         self.color = if command[2] != 0 {
-            over(command[1], saved.color, group.map(|c| weight * c))
+            over(command[1], level.color, group.map(|c| weight * c))
         } else if weight >= 1.0 {
             group
         } else {
-            std::array::from_fn(|i| (1.0 - weight) * saved.color[i] + weight * group[i])
+            std::array::from_fn(|i| (1.0 - weight) * level.color[i] + weight * group[i])
         };
     }
 
@@ -157,11 +157,11 @@ impl Stack {
             mask::LINEAR_LUMINANCE => luminance(decode_premultiplied(content)),
             _ => content[3],
         };
-        let Some(saved) = self.pop() else {
+        let Some(level) = self.pop() else {
             return false;
         };
-        self.color = saved.color;
-        let weight = saved.weight * value;
+        self.color = level.color;
+        let weight = level.weight * value;
         let nothing = weight <= 0.0;
         self.weight = if nothing { 1.0 } else { weight };
         nothing

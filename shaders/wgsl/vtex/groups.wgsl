@@ -9,23 +9,23 @@
 //!use vtex/brush
 //!use vtex/blend
 // Lists that hold groups, whose commands lie back to front: one walk, sRGB-encoded, with what lies
-// behind each open group on a stack.
+// behind each open group on a blend stack.
 
-// Of an open group.
-struct VtexSaved {
+// A level of the blend stack: an open group or mask.
+struct VtexBlendLevel {
     // What lies behind it.
     color: vec4f,
     // What its masks make of its opacity.
     weight: f32,
 }
 
-struct VtexStack {
+struct VtexBlendStack {
     // So far, premultiplied.
     color: vec4f,
     // Of masks whose group has not begun.
     weight: f32,
     depth: u32,
-    saved: array<VtexSaved, VTEX_KEY_FRAMES>,
+    levels: array<VtexBlendLevel, VTEX_KEY_BLEND_DEPTH>,
 }
 
 // What the list shows to those samples of `live` that do at every edge as the first of them does.
@@ -35,7 +35,7 @@ fn vtex_groups(
     let first = vt.commands + (word & VTEX_CELL_PAYLOAD_MASK) * VTEX_CMD_WORDS;
     let leader = live & (~live + 1u);
     var same = live;
-    var stack: VtexStack;
+    var stack: VtexBlendStack;
     stack.weight = 1.0;
     var winding = VtexWinding();
     var walks = true;
@@ -83,7 +83,7 @@ fn vtex_groups_is_test(tail: u32) -> bool {
 }
 
 // Whether the walk is to pass over what follows the control command.
-fn vtex_groups_control(stack: ptr<function, VtexStack>, command: vec4u) -> bool {
+fn vtex_groups_control(stack: ptr<function, VtexBlendStack>, command: vec4u) -> bool {
     switch command.w & VTEX_CMD_CONTROL_MASK {
         case VTEX_CMD_OPEN: {
             vtex_groups_open(stack, command.x != 0u);
@@ -99,26 +99,26 @@ fn vtex_groups_control(stack: ptr<function, VtexStack>, command: vec4u) -> bool 
     }
 }
 
-fn vtex_groups_open(stack: ptr<function, VtexStack>, isolated: bool) {
-    (*stack).saved[(*stack).depth] = VtexSaved((*stack).color, (*stack).weight);
+fn vtex_groups_open(stack: ptr<function, VtexBlendStack>, isolated: bool) {
+    (*stack).levels[(*stack).depth] = VtexBlendLevel((*stack).color, (*stack).weight);
     (*stack).depth += 1u;
     (*stack).weight = 1.0;
     (*stack).color = select((*stack).color, vec4f(0.0), isolated);
 }
 
-fn vtex_groups_pop(stack: ptr<function, VtexStack>) -> VtexSaved {
+fn vtex_groups_pop(stack: ptr<function, VtexBlendStack>) -> VtexBlendLevel {
     (*stack).depth -= 1u;
-    return (*stack).saved[(*stack).depth];
+    return (*stack).levels[(*stack).depth];
 }
 
-fn vtex_groups_close(stack: ptr<function, VtexStack>, command: vec4u) {
+fn vtex_groups_close(stack: ptr<function, VtexBlendStack>, command: vec4u) {
     let group = (*stack).color;
-    let saved = vtex_groups_pop(stack);
-    let weight = bitcast<f32>(command.x) * saved.weight;
+    let level = vtex_groups_pop(stack);
+    let weight = bitcast<f32>(command.x) * level.weight;
     if command.z != 0u {
-        (*stack).color = vtex_groups_over(command.y, saved.color, weight * group);
+        (*stack).color = vtex_groups_over(command.y, level.color, weight * group);
     } else if weight < 1.0 {
-        (*stack).color = (1.0 - weight) * saved.color + weight * group;
+        (*stack).color = (1.0 - weight) * level.color + weight * group;
     }
 }
 
@@ -139,7 +139,7 @@ fn vtex_groups_luminance(color: vec4f) -> f32 {
     return dot(color.rgb, vec3f(0.2126, 0.7152, 0.0722));
 }
 
-fn vtex_groups_mask(stack: ptr<function, VtexStack>, kind: u32) -> bool {
+fn vtex_groups_mask(stack: ptr<function, VtexBlendStack>, kind: u32) -> bool {
     let content = (*stack).color;
     var value = content.a;
     if kind == VTEX_MASK_LUMINANCE {
@@ -147,9 +147,9 @@ fn vtex_groups_mask(stack: ptr<function, VtexStack>, kind: u32) -> bool {
     } else if kind == VTEX_MASK_LINEAR_LUMINANCE {
         value = vtex_groups_luminance(vtex_color_decode_premultiplied(content));
     }
-    let saved = vtex_groups_pop(stack);
-    (*stack).color = saved.color;
-    let weight = saved.weight * value;
+    let level = vtex_groups_pop(stack);
+    (*stack).color = level.color;
+    let weight = level.weight * value;
     let nothing = weight <= 0.0;
     (*stack).weight = select(weight, 1.0, nothing);
     return nothing;

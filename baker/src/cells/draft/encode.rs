@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use vtex_format::{
-    CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL, MAX_FRAMES, MaskKind, list_frames,
+    CellWord, Entry, EntryKind, MAX_BLEND_DEPTH, MAX_ENTRIES_PER_CELL, MaskKind, list_blend_depth,
 };
 
 use super::{
@@ -88,7 +88,7 @@ impl<'p> ListEncoder<'p> {
             last.last = true;
         }
         // Invariant of the format: evaluators have a stack of fixed size.
-        if list_frames(&entries).map_or(true, |frames| frames > MAX_FRAMES) {
+        if list_blend_depth(&entries).map_or(true, |depth| depth > MAX_BLEND_DEPTH) {
             return Err(BakeError::Limit("groups nest too deeply".into()));
         }
         let mut words = Vec::with_capacity(2 * entries.len());

@@ -1,7 +1,7 @@
 //! Lists of control entries written as letters, and what they parse to.
 
 use super::*;
-use ListFaultKind::{Blend, Bracket, Frames, Jump, Mask};
+use ListFaultKind::{Blend, BlendDepth, Bracket, Jump, Mask};
 
 /// A list from words: `e` draws, `t3` tests and passes over three entries, `(` opens a group, `<`
 /// an isolated one, `)` closes it, `*` closes with a blend mode, `m4` ends a mask.
@@ -46,15 +46,19 @@ fn shown(blocks: &[Block]) -> String {
     blocks.iter().map(block).collect::<Vec<_>>().join(" ")
 }
 
-fn check(text: &str, expected: &str, frames: u32) {
+fn check(text: &str, expected: &str, depth: u32) {
     let entries = list(text);
     let blocks = list_blocks(&entries).unwrap_or_else(|fault| panic!("{text}: {fault}"));
     assert_eq!(shown(&blocks), expected, "{text}");
-    assert_eq!(list_frames(&entries), Ok(frames), "{text}");
+    assert_eq!(list_blend_depth(&entries), Ok(depth), "{text}");
 }
 
 fn refuse(text: &str, entry: usize, kind: ListFaultKind) {
-    assert_eq!(list_frames(&list(text)), Err(fault(entry, kind)), "{text}");
+    assert_eq!(
+        list_blend_depth(&list(text)),
+        Err(fault(entry, kind)),
+        "{text}"
+    );
 }
 
 #[test]
@@ -121,11 +125,11 @@ fn groups_and_masks_are_whole() {
 }
 
 #[test]
-fn frames_are_counted_to_the_bound() {
+fn levels_of_the_blend_stack_are_counted_to_the_bound() {
     let nested = |depth: usize| format!("{} e {}", "( ".repeat(depth), ") ".repeat(depth));
-    assert_eq!(list_frames(&list(&nested(32))), Ok(32));
-    let error = list_frames(&list(&nested(33))).map_err(|fault| fault.kind);
-    assert_eq!(error, Err(Frames));
+    assert_eq!(list_blend_depth(&list(&nested(32))), Ok(32));
+    let error = list_blend_depth(&list(&nested(33))).map_err(|fault| fault.kind);
+    assert_eq!(error, Err(BlendDepth));
     // Clips that each guard one entry more than the next.
     let clips = |depth: usize| -> String {
         let tests: String = (0..depth)
@@ -133,15 +137,15 @@ fn frames_are_counted_to_the_bound() {
             .collect();
         tests + &"e ".repeat(depth)
     };
-    assert_eq!(list_frames(&list(&clips(32))), Ok(32));
+    assert_eq!(list_blend_depth(&list(&clips(32))), Ok(32));
     for depth in [33, 60, 70, 2000] {
-        let error = list_frames(&list(&clips(depth))).map_err(|fault| fault.kind);
-        assert_eq!(error, Err(Frames), "{depth}");
+        let error = list_blend_depth(&list(&clips(depth))).map_err(|fault| fault.kind);
+        assert_eq!(error, Err(BlendDepth), "{depth}");
     }
     let same = "t2000 ".split_whitespace().cycle().take(2000);
     let same: Vec<String> = same
         .enumerate()
         .map(|(i, _)| format!("t{}", 2000 - i))
         .collect();
-    assert_eq!(list_frames(&list(&(same.join(" ") + " e"))), Ok(1));
+    assert_eq!(list_blend_depth(&list(&(same.join(" ") + " e"))), Ok(1));
 }
