@@ -53,7 +53,7 @@ mod records;
 mod serial;
 
 pub use cells::blocks::{
-    Block, ListFault, ListFaultKind, MAX_BLEND_DEPTH, MaskBlock, jump_target, list_blend_depth,
+    Block, ListFault, ListFaultKind, MAX_BLEND_DEPTH, MaskBlock, branch_target, list_blend_depth,
     list_blocks,
 };
 pub use cells::cell::{

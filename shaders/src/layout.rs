@@ -117,7 +117,7 @@ mod feature = "FEATURE" {
 }
 
 /// Parts of a fine cell's word: tags as of [`vtex_format::CellWord`], a list's payload counts commands.
-/// A cell with neither list nor groups has a room beside its paint: that many fine cells around it,
+/// A cell with neither list nor groups has a clearance beside its paint: that many fine cells around it,
 /// in every direction, show the same. Only footprint lookups read it; for others it is 0.
 mod cell = "CELL" {
     /// Position of the tag.
@@ -126,10 +126,10 @@ mod cell = "CELL" {
     PAYLOAD_MASK = (1 << TAG_SHIFT) - 1;
     /// Bits of a paint's index.
     PAINT_MASK = vtex_format::MAX_INDEXED - 1;
-    /// Position of the room.
-    ROOM_SHIFT = PAINT_MASK.count_ones();
-    /// The greatest room, and the bits of one.
-    ROOM_MASK = 63;
+    /// Position of the clearance.
+    CLEARANCE_SHIFT = PAINT_MASK.count_ones();
+    /// The greatest clearance, and the bits of one.
+    CLEARANCE_MASK = 63;
     /// By how much of its side the list of a fine cell goes beyond it on each side, as far as the
     /// file's cell goes, in sixteenths. Only footprint lookups read it; for others it does not.
     OVERLAP = 4;
@@ -148,11 +148,11 @@ mod cell = "CELL" {
 /// is one command whose first word is [`vtex_format::Entry::data`]. The last command of an entry carries
 /// what belongs to all of it: index, base, kind, rule, opaque and last.
 ///
-/// An entry that draws nothing has [`CONTROL_BIT`](cmd::CONTROL_BIT) there. A test is
+/// An entry that draws nothing has [`CONTROL_BIT`](cmd::CONTROL_BIT) there. A branch is
 /// curves; others are one command whose kind is full, with [`JUMP`](cmd::JUMP),
 /// [`OPEN`](cmd::OPEN), [`CLOSE`](cmd::CLOSE) or [`MASK`](cmd::MASK). The
-/// index of a test, jump or mask is the number of commands to pass over, 0 for all that follow; the
-/// opaque bit of a test or jump says that it is done inside. First words: of open 1 when isolated;
+/// index of a branch, jump or mask is the number of commands to pass over, 0 for all that follow; the
+/// opaque bit of a branch or jump says that it is taken inside. First words: of open 1 when isolated;
 /// of mask its kind; of close opacity (float), blend mode and 1 when isolated.
 mod cmd = "CMD" {
     /// Words of a command.
@@ -177,7 +177,7 @@ mod cmd = "CMD" {
     IMAGE = (vtex_format::EntryKind::Image as u32) << 24;
     /// Bits that tell control entries apart.
     CONTROL_MASK = KIND_MASK | LINE_BIT | DOWN_BIT;
-    /// Always passes over commands.
+    /// An unconditional branch.
     JUMP = FULL;
     /// A group begins.
     OPEN = FULL | LINE_BIT;

@@ -7,8 +7,8 @@ use vtex_format::{
     Spread, VtexFile,
 };
 
+use crate::clips_and_groups::{self, Wants};
 use crate::random::Random;
-use crate::scopes::{self, Wants};
 
 const DISTANCE_RANGE_TEXELS: f32 = 4.0;
 const PAINTS: u32 = 12;
@@ -304,9 +304,9 @@ fn random_cell(r: &mut Random, file: &mut VtexFile, features: u32, records: &[u3
         _ => {}
     }
     let offset_words = u32::try_from(file.entries.len()).expect("a small file");
-    let scoped = features & (Features::CLIPS | Features::GROUPS) != 0;
-    let entries = if scoped && r.below(4) > 0 {
-        scoped_list(r, file, features, records)
+    let grouped = features & (Features::CLIPS | Features::GROUPS) != 0;
+    let entries = if grouped && r.below(4) > 0 {
+        grouped_list(r, file, features, records)
     } else {
         plain_list(r, file, features, records)
     };
@@ -329,7 +329,7 @@ fn plain_list(r: &mut Random, file: &VtexFile, features: u32, records: &[u32]) -
 }
 
 /// A tree of clips and groups, in which entries of any kind draw.
-fn scoped_list(r: &mut Random, file: &VtexFile, features: u32, records: &[u32]) -> Vec<Entry> {
+fn grouped_list(r: &mut Random, file: &VtexFile, features: u32, records: &[u32]) -> Vec<Entry> {
     let wants = Wants {
         clips: features & Features::CLIPS != 0,
         groups: features & Features::GROUPS != 0,
@@ -340,7 +340,7 @@ fn scoped_list(r: &mut Random, file: &VtexFile, features: u32, records: &[u32]) 
     } else {
         SHALLOW_BLEND_DEPTH
     };
-    let mut entries = scopes::random_list(r, wants, records, depth);
+    let mut entries = clips_and_groups::random_list(r, wants, records, depth);
     for entry in &mut entries {
         if entry.kind.draws() {
             *entry = random_entry(r, file, features, records, false);
@@ -360,11 +360,11 @@ fn random_entry(
     last: bool,
 ) -> Entry {
     let has = |feature| features & feature != 0;
-    let scoped = has(Features::CLIPS) || has(Features::GROUPS);
+    let grouped = has(Features::CLIPS) || has(Features::GROUPS);
     let kinds = [
         (
             EntryKind::Full,
-            !has(Features::MSDF) && !has(Features::CURVES) || last || scoped && r.below(4) == 0,
+            !has(Features::MSDF) && !has(Features::CURVES) || last || grouped && r.below(4) == 0,
         ),
         (EntryKind::Image, has(Features::IMAGES)),
         (EntryKind::Msdf, has(Features::MSDF)),

@@ -85,16 +85,16 @@ pub enum EntryKind {
     Curves = 2,
     /// A raster image; coverage and colour are its texels.
     Image = 3,
-    /// Shows nothing: passes over the `index` entries behind it where the lookup lies outside the
+    /// Shows nothing: branches over the `index` entries behind it where the lookup lies outside the
     /// outline in the curve record named by the next word; inside it when [`Entry::opaque`].
-    Test = 4,
+    Branch = 4,
     /// A group begins; [`crate::OPEN_ISOLATED`] or 0 in the next word.
     Open = 5,
     /// A group ends and is composited by the [`crate::BlendMode`] of number `index` with the
     /// opacity in the next word, f32 bits.
     Close = 6,
     /// A group ends and is the mask of the one behind it, by the [`crate::MaskKind`] in the next
-    /// word; passes over `index` entries where it is 0.
+    /// word; branches over `index` entries where it is 0.
     Mask = 7,
 }
 
@@ -106,7 +106,7 @@ impl EntryKind {
 
     /// Whether the second word names a curve record.
     pub const fn has_record(self) -> bool {
-        matches!(self, Self::Curves | Self::Test)
+        matches!(self, Self::Curves | Self::Branch)
     }
 }
 
@@ -120,7 +120,7 @@ impl EntryKind {
 /// | 25..0 | paint index, or image index for [`EntryKind::Image`]; less than [`MAX_INDEXED`] |
 ///
 /// The second word is the tile index for [`EntryKind::Msdf`], for [`EntryKind::Curves`] and
-/// [`EntryKind::Test`] the word offset of the record in the curve section, and 0 for
+/// [`EntryKind::Branch`] the word offset of the record in the curve section, and 0 for
 /// [`EntryKind::Full`] and [`EntryKind::Image`]. What the kinds that draw nothing hold is said
 /// there, and how they may follow each other at [`crate::list_blocks`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,8 +129,8 @@ pub struct Entry {
     pub kind: EntryKind,
     /// Whether the list ends here.
     pub last: bool,
-    /// Whether it hides what lies behind where its coverage is 1; of [`EntryKind::Test`] whether
-    /// it passes over entries inside instead of outside.
+    /// Whether it hides what lies behind where its coverage is 1; of [`EntryKind::Branch`] whether
+    /// it branches inside instead of outside.
     pub opaque: bool,
     /// Paint index, or image index for [`EntryKind::Image`].
     pub index: u32,
@@ -156,7 +156,7 @@ impl Entry {
             1 => EntryKind::Msdf,
             2 => EntryKind::Curves,
             3 => EntryKind::Image,
-            4 => EntryKind::Test,
+            4 => EntryKind::Branch,
             5 => EntryKind::Open,
             6 => EntryKind::Close,
             7 => EntryKind::Mask,
@@ -179,8 +179,8 @@ impl Entry {
         match self.kind {
             EntryKind::Full | EntryKind::Image => self.data == 0,
             EntryKind::Msdf | EntryKind::Curves => true,
-            // A test that passes over nothing would cost time and change nothing.
-            EntryKind::Test => self.index > 0,
+            // A branch over nothing would cost time and change nothing.
+            EntryKind::Branch => self.index > 0,
             EntryKind::Open => !self.opaque && self.index == 0 && self.data <= OPEN_ISOLATED,
             EntryKind::Close => {
                 // The bits of negative numbers and of NaN are larger than those of 1.
@@ -207,8 +207,8 @@ mod tests {
             data,
         };
         let sound = [
-            entry(EntryKind::Test, true, 1, 77),
-            entry(EntryKind::Test, false, MAX_INDEXED - 1, 0),
+            entry(EntryKind::Branch, true, 1, 77),
+            entry(EntryKind::Branch, false, MAX_INDEXED - 1, 0),
             entry(EntryKind::Open, false, 0, OPEN_ISOLATED),
             entry(EntryKind::Close, false, 15, 1.0_f32.to_bits()),
             entry(EntryKind::Close, false, 0, 0),
@@ -219,7 +219,7 @@ mod tests {
             assert_eq!(Entry::decode(words), Some(entry));
         }
         let unsound = [
-            entry(EntryKind::Test, false, 0, 0),
+            entry(EntryKind::Branch, false, 0, 0),
             entry(EntryKind::Open, true, 0, 0),
             entry(EntryKind::Open, false, 1, 0),
             entry(EntryKind::Open, false, 0, 2),

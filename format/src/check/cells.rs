@@ -64,7 +64,7 @@ pub(super) fn entries(file: &VtexFile, tables: &Tables, issues: &mut Issues) {
             EntryKind::Full | EntryKind::Msdf | EntryKind::Curves => {
                 (issue::ENTRY_PAINT, file.paints.len())
             }
-            EntryKind::Test | EntryKind::Open | EntryKind::Close | EntryKind::Mask => continue,
+            EntryKind::Branch | EntryKind::Open | EntryKind::Close | EntryKind::Mask => continue,
         };
         let place = entry.index as usize;
         if place >= count {
@@ -184,7 +184,7 @@ fn controls(entries: &[u32], first: usize, issues: &mut Issues) {
         return;
     };
     let kind = match fault.kind {
-        ListFaultKind::Jump => issue::LIST_JUMP,
+        ListFaultKind::Branch => issue::LIST_BRANCH,
         ListFaultKind::Bracket => issue::LIST_GROUP,
         ListFaultKind::Mask => issue::LIST_MASK,
         ListFaultKind::Blend => issue::LIST_BLEND,

@@ -220,7 +220,7 @@ issue_table! {
     OUTLINE_RECORDS = 5022 Malformed "the curve records differ from those made from the outlines";
     OUTLINE_TWICE = 5023 Malformed "CURV and OUTL are both present";
 
-    LIST_JUMP = 5030 Malformed "a jump in a list has an invalid target";
+    LIST_BRANCH = 5030 Malformed "a branch in a list has an invalid target";
     LIST_GROUP = 5031 Malformed "a group in a list lacks its open or its close";
     LIST_MASK = 5032 Malformed "a mask in a list is not followed by its group";
     LIST_BLEND = 5033 Malformed "a group that is not isolated has a blend mode";

@@ -53,7 +53,7 @@ impl Features {
     pub const FOOTPRINT: u32 = 1 << 9;
     /// Some cell or entry names a gradient.
     pub const GRADIENTS: u32 = 1 << 10;
-    /// Some entry is a test: what shows is clipped.
+    /// Some entry is a branch: what shows is clipped.
     pub const CLIPS: u32 = 1 << 11;
     /// Some entries are groups.
     pub const GROUPS: u32 = 1 << 12;
@@ -135,7 +135,7 @@ impl<'a> Content<'a> {
             EntryKind::Full => 0,
             EntryKind::Msdf => Features::MSDF,
             EntryKind::Curves => Features::CURVES,
-            EntryKind::Test => return Features::CLIPS | Features::CURVES,
+            EntryKind::Branch => return Features::CLIPS | Features::CURVES,
             EntryKind::Close if entry.index != BlendMode::Normal as u32 => {
                 return Features::GROUPS | Features::BLENDS;
             }

@@ -76,8 +76,8 @@ fn within<S: Samples>(sampler: &Sampler<'_>, samples: &S, tile: u32, least: f32,
     mask
 }
 
-/// The samples that a test or jump with this last word passes on, when it covers `covered`.
-pub(super) const fn jumps(tail: u32, covered: u32) -> u32 {
+/// The samples for which a branch or jump with this last word is taken, when it covers `covered`.
+pub(super) const fn taken(tail: u32, covered: u32) -> u32 {
     if tail & cmd::OPAQUE_BIT != 0 {
         covered
     } else {
@@ -88,7 +88,7 @@ pub(super) const fn jumps(tail: u32, covered: u32) -> u32 {
 /// Where a walk ends: behind every command.
 pub(super) const BEYOND: u32 = u32::MAX;
 
-/// Where a control command passes over commands to, when `next` follows it.
+/// Where a control command branches to, when `next` follows it.
 pub(super) const fn target(tail: u32, next: u32) -> u32 {
     match tail & cmd::INDEX_MASK {
         0 => BEYOND,
@@ -96,8 +96,8 @@ pub(super) const fn target(tail: u32, next: u32) -> u32 {
     }
 }
 
-/// Whether a control command with this last word is a test or a jump.
-pub(super) const fn is_test(tail: u32) -> bool {
+/// Whether a control command with this last word is a branch or a jump.
+pub(super) const fn is_branch(tail: u32) -> bool {
     let op = tail & cmd::CONTROL_MASK;
     tail & cmd::KIND_MASK == cmd::CURVES || op == cmd::JUMP
 }

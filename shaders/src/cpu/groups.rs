@@ -7,7 +7,7 @@ use super::blend::blend;
 use super::brush::brush;
 use super::color::decode_premultiplied;
 use super::cost::Observer;
-use super::edge::{BEYOND, Edge, is_test, jumps, target};
+use super::edge::{BEYOND, Edge, is_branch, taken, target};
 use super::samples::Samples;
 use super::walk::Resolved;
 use super::{Lookup, Sampler};
@@ -44,15 +44,15 @@ pub(super) fn groups<S: Samples>(
             at = BEYOND;
         }
         if tail & cmd::CONTROL_BIT != 0 {
-            let passes = if is_test(tail) {
-                let jumps = jumps(tail, covered);
-                let passes = jumps & leader != 0;
-                live &= if passes { jumps } else { !jumps };
-                passes
+            let branches = if is_branch(tail) {
+                let taken = taken(tail, covered);
+                let leads = taken & leader != 0;
+                live &= if leads { taken } else { !taken };
+                leads
             } else {
                 stack.control(words)
             };
-            if passes {
+            if branches {
                 at = target(tail, next);
             }
         } else if covered & leader != 0 {
@@ -100,7 +100,7 @@ impl BlendStack {
         }
     }
 
-    /// Whether the walk is to pass over what follows the control command.
+    /// Whether the walk branches over what follows the control command.
     fn control(&mut self, command: [u32; 4]) -> bool {
         match command[3] & cmd::CONTROL_MASK {
             cmd::OPEN => {

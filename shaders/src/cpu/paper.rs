@@ -2,7 +2,7 @@
 
 use super::brush::brush;
 use super::color;
-use super::edge::{Edge, jumps, target};
+use super::edge::{Edge, taken, target};
 use super::math::smoothstep;
 use super::samples::Samples;
 use super::walk::Resolved;
@@ -44,7 +44,7 @@ pub(super) fn paper<S: Samples>(
             inner = 0.0;
         }
         if tail & cmd::CONTROL_BIT != 0 {
-            if jumps(tail, u32::from(inner > 0.0)) & 1 != 0 {
+            if taken(tail, u32::from(inner > 0.0)) & 1 != 0 {
                 at = target(tail, at);
                 continue;
             }

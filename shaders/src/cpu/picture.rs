@@ -6,7 +6,7 @@ use vtex_format::Features;
 use super::cost::Observer;
 use super::math::{clamp, to_f32, to_u32};
 use super::plane::Vec2;
-use super::rows::{CellRows, Rows, reach};
+use super::rows::{CellRows, Rows, extent};
 use super::samples::{Point, Samples};
 use super::walk::{Resolved, walk};
 use super::{Lookup, Sampler, groups, paint, paper};
@@ -113,7 +113,7 @@ struct Canvas {
     /// That corner.
     home: Vec2,
     centre: Vec2,
-    reach: Vec2,
+    extent: Vec2,
     /// Not made before they are needed.
     rows: Rows,
     /// The canvas.
@@ -143,7 +143,7 @@ impl Canvas {
         Self {
             home,
             centre,
-            reach: reach(lookup.axes),
+            extent: extent(lookup.axes),
             rows: Rows::default(),
             low,
             high: [0, 1].map(|i| s.scale[i] + low[i]),
@@ -158,8 +158,8 @@ impl Canvas {
         let cell = [0, 1].map(|i| (fine[i] * s.cell_per_fine).floor() - self.home[i]);
         // A list serves what is near, as far as its cell of the file goes.
         let listed = word >> cell::TAG_SHIFT >= cell::LIST;
-        let room = to_f32(word >> cell::ROOM_SHIFT & cell::ROOM_MASK);
-        let around = if listed { OVERLAP } else { room } * s.cell_per_fine;
+        let clearance = to_f32(word >> cell::CLEARANCE_SHIFT & cell::CLEARANCE_MASK);
+        let around = if listed { OVERLAP } else { clearance } * s.cell_per_fine;
         let mut pass = Pass {
             word,
             cell,
@@ -176,8 +176,8 @@ impl Canvas {
             let corner = fine[i] * s.cell_per_fine - self.home[i];
             pass.low[i] = pass.low[i].max(corner - around);
             pass.high[i] = pass.high[i].min(corner + around + s.cell_per_fine);
-            pass.whole &= pass.low[i] <= self.centre[i] - self.reach[i];
-            pass.whole &= self.centre[i] + self.reach[i] < pass.high[i];
+            pass.whole &= pass.low[i] <= self.centre[i] - self.extent[i];
+            pass.whole &= self.centre[i] + self.extent[i] < pass.high[i];
         }
         let [before, behind] = [
             [0, 1].map(|i| place[i] < self.low[i]),

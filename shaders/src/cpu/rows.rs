@@ -40,7 +40,7 @@ pub(super) struct Rows {
 
 /// No sample lies farther from the centre, in cells, along x and along y. A bound without a root: the
 /// sides of a parallelogram of one covariance add up to no more than sqrt(2) times what theirs do.
-pub(super) fn reach([ax, ay, bx, by]: [f32; 4]) -> Vec2 {
+pub(super) fn extent([ax, ay, bx, by]: [f32; 4]) -> Vec2 {
     [(ax.abs() + bx.abs()) * 0.7072, (ay.abs() + by.abs()) * 0.5]
 }
 

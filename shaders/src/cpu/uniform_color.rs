@@ -57,8 +57,8 @@ impl Sampler<'_> {
         if s.filter != filter::POINT || s.outline {
             return false;
         }
-        let [units, reach] = s.curve_lattice;
-        let [low, high] = [low, high].map(|q| q.map(|q| q * units + reach));
+        let [units, margin] = s.curve_lattice;
+        let [low, high] = [low, high].map(|q| q.map(|q| q * units + margin));
         let mut at = s.commands.wrapping_add(offset.wrapping_mul(cmd::WORDS));
         for _ in 0..cmd::LIMIT {
             let words: [u32; 4] = self.words(at);

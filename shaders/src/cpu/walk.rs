@@ -1,7 +1,7 @@
 //! Twin of `vtex/walk.wgsl`, `vtex/composite_*.wgsl` and `vtex/resolved.wgsl`: the walk over a cell's list, front to back.
 //!
 //! All samples of one walk have met the same entries so far, so one colour stands for them. Those
-//! that an opaque entry covers are done. At any other entry or test the samples part: the walk goes
+//! that an opaque entry covers are done. At any other entry or branch the samples part: the walk goes
 //! on with those that do as the first of them does, and another walk begins with the rest.
 
 use vtex_format::Features;
@@ -9,7 +9,7 @@ use vtex_format::Features;
 use super::brush::{BrushColor, brush};
 use super::color;
 use super::cost::Observer;
-use super::edge::{Edge, jumps, ring, target};
+use super::edge::{Edge, ring, taken, target};
 use super::math::to_f32;
 use super::samples::Samples;
 use super::{Lookup, Sampler, paint};
@@ -35,7 +35,7 @@ impl Resolved {
     }
 }
 
-/// What a list of draws and tests shows to the samples of `live`, or to some of them.
+/// What a list of draws and branches shows to the samples of `live`, or to some of them.
 pub(super) fn walk<S: Samples>(
     sampler: &Sampler<'_>,
     lookup: &Lookup,
@@ -63,7 +63,7 @@ pub(super) fn walk<S: Samples>(
         let tail = words[3];
         let covered = edge.covered(sampler, samples, words, composite.live);
         if tail & cmd::CONTROL_BIT != 0 {
-            if composite.part(jumps(tail, covered)) {
+            if composite.part(taken(tail, covered)) {
                 at = target(tail, at);
                 continue;
             }

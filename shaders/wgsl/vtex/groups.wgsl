@@ -51,14 +51,14 @@ fn vtex_groups(
             walks = (command.w & VTEX_CMD_LAST_BIT) == 0u;
             winding = VtexWinding();
             if (command.w & VTEX_CMD_CONTROL_BIT) != 0u {
-                var jumps = false;
-                if vtex_groups_is_test(command.w) {
+                var branches = false;
+                if vtex_groups_is_branch(command.w) {
                     same &= select(~covered, covered, leads);
-                    jumps = leads == ((command.w & VTEX_CMD_OPAQUE_BIT) != 0u);
+                    branches = leads == ((command.w & VTEX_CMD_OPAQUE_BIT) != 0u);
                 } else {
-                    jumps = vtex_groups_control(&stack, command);
+                    branches = vtex_groups_control(&stack, command);
                 }
-                if jumps {
+                if branches {
                     let over = command.w & VTEX_CMD_INDEX_MASK;
                     walks = over != 0u;
                     i += over;
@@ -76,13 +76,13 @@ fn vtex_groups(
     return vtex_resolved(vtex_color_decode_premultiplied(stack.color), same);
 }
 
-// Whether a control command with this last word is a test or a jump.
-fn vtex_groups_is_test(tail: u32) -> bool {
+// Whether a control command with this last word is a branch or a jump.
+fn vtex_groups_is_branch(tail: u32) -> bool {
     let op = tail & VTEX_CMD_CONTROL_MASK;
     return (tail & VTEX_CMD_KIND_MASK) == VTEX_CMD_CURVES || op == VTEX_CMD_JUMP;
 }
 
-// Whether the walk is to pass over what follows the control command.
+// Whether the walk branches over what follows the control command.
 fn vtex_groups_control(stack: ptr<function, VtexBlendStack>, command: vec4u) -> bool {
     switch command.w & VTEX_CMD_CONTROL_MASK {
         case VTEX_CMD_OPEN: {

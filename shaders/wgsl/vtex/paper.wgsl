@@ -47,7 +47,7 @@ fn vtex_paper(
                 let inside = (command.w & VTEX_CMD_OPAQUE_BIT) != 0u;
                 if (inner > 0.0) == inside {
                     over = command.w & VTEX_CMD_INDEX_MASK;
-                    // A jump over nothing leaves the list.
+                    // A branch over nothing leaves the list.
                     if over == 0u {
                         break;
                     }

@@ -50,7 +50,7 @@ const VTEX_ROWS_LEAST: f32 = 1e-12;
 
 // No sample lies farther from the centre, in cells, along x and along y. A bound without a root: the
 // sides of a parallelogram of one covariance add up to no more than sqrt(2) times what theirs do.
-fn vtex_rows_reach(axes: vec4f) -> vec2f {
+fn vtex_rows_extent(axes: vec4f) -> vec2f {
     return (abs(axes.xy) + abs(axes.zw)) * vec2f(0.7072, 0.5);
 }
 

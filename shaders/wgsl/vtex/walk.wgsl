@@ -12,7 +12,7 @@
 // not once an entry.
 //
 // All samples of one walk have met the same entries so far, so one colour stands for them. Those
-// that an opaque entry covers are done. At any other entry or test the samples part: the walk goes
+// that an opaque entry covers are done. At any other entry or branch the samples part: the walk goes
 // on with those that do as the first of them does, and another walk begins with the rest.
 
 fn vtex_walk(
@@ -45,14 +45,14 @@ fn vtex_walk(
             // Textures without clips have no control commands here: there is nothing to ask the header.
             if control && (VTEX_KEY_FEATURES & VTEX_FEATURE_CLIPS) != 0u {
                 let inside = (command.w & VTEX_CMD_OPAQUE_BIT) != 0u;
-                let jumps = select(~covered, covered, inside);
-                let leads = (jumps & composite.live & (~composite.live + 1u)) != 0u;
-                composite.live &= select(~jumps, jumps, leads);
+                let taken = select(~covered, covered, inside);
+                let leads = (taken & composite.live & (~composite.live + 1u)) != 0u;
+                composite.live &= select(~taken, taken, leads);
                 over = select(0u, command.w & VTEX_CMD_INDEX_MASK, leads);
-                // A jump over nothing leaves the list.
+                // A branch over nothing leaves the list.
                 walks = !leads || over != 0u;
             }
-            // A jump goes on whatever the command it starts from says.
+            // A branch that is taken goes on whatever the command it starts from says.
             walks = walks && composite.live != 0u
                 && (over != 0u || (command.w & VTEX_CMD_LAST_BIT) == 0u);
             i += over;

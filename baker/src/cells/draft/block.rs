@@ -6,7 +6,7 @@
 use vtex_format::{BlendMode, MaskKind};
 
 use super::{
-    clip::{self, Formula, Test},
+    clip::{self, Branch, Formula},
     entry::{Draft, draft_run},
 };
 use crate::{
@@ -33,8 +33,8 @@ pub(super) enum Block<'a> {
 /// What is left of a group in a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct GroupDraft<'a> {
-    /// The tests of its clips.
-    pub(super) tests: Vec<Test<'a>>,
+    /// The branches of its clips.
+    pub(super) branches: Vec<Branch<'a>>,
     /// Masks whose weight differs within the cell.
     pub(super) masks: Vec<(MaskKind, Vec<Block<'a>>)>,
     /// How the body is composited as a whole; `None` when its entries may go straight into the
@@ -85,7 +85,7 @@ impl<'a> Block<'a> {
         // Open before a mask's picture, and the entry that takes its weight after it.
         let masks = group.masks.iter().map(|(_, blocks)| count(blocks) + 2);
         let open_and_close = if group.compositing.is_some() { 2 } else { 0 };
-        group.tests.len() + masks.sum::<usize>() + open_and_close + count(&group.body)
+        group.branches.len() + masks.sum::<usize>() + open_and_close + count(&group.body)
     }
 
     /// Adds the tiles that it names.
@@ -109,7 +109,7 @@ impl<'a> Block<'a> {
             Self::Group(group) => {
                 let plain =
                     |how: &Compositing| how.opacity >= 1.0 && how.blend == BlendMode::Normal;
-                group.tests.is_empty()
+                group.branches.is_empty()
                     && group.masks.is_empty()
                     && group.compositing.as_ref().is_none_or(plain)
                     && group.body.last().is_some_and(|block| block.hides(paints))
@@ -193,7 +193,7 @@ impl<'a> Drafting<'a, '_, '_> {
         if opacity <= 0.0 {
             return Vec::new();
         }
-        let tests = formula.into_tests();
+        let branches = formula.into_branches();
         // The same rule as for the drawing, but with what is left in this cell.
         let is_group = group.isolated || opacity < 1.0 || !masks.is_empty();
         let mut body = body;
@@ -205,11 +205,11 @@ impl<'a> Drafting<'a, '_, '_> {
         if masks.is_empty() && group.blend == BlendMode::Normal && self.fades(&mut body, opacity) {
             compositing = None;
         }
-        if tests.is_empty() && compositing.is_none() {
+        if branches.is_empty() && compositing.is_none() {
             return body;
         }
         vec![Block::Group(GroupDraft {
-            tests,
+            branches,
             masks,
             compositing,
             body,

@@ -2,7 +2,7 @@
 
 /// File of `cpu/`, its function, and the function of WGSL that it is the twin of.
 pub(super) const OTHERWISE: &[(&str, &str, &str)] = &[
-    ("edge.rs", "is_test", "vtex_groups_is_test"),
+    ("edge.rs", "is_branch", "vtex_groups_is_branch"),
     ("edge.rs", "within", "vtex_msdf_covered"),
     ("image.rs", "new", "vtex_image_region"),
     ("picture.rs", "fine_cell", "vtex_cell_fine"),
@@ -26,7 +26,7 @@ pub(super) const ONLY_RUST: &[(&str, &[&str], &str)] = &[
     ),
     (
         "edge.rs",
-        &["jumps", "target"],
+        &["taken", "target"],
         "WGSL has them in each walk: its walks share no loop over a mutable place",
     ),
     ("gradient.rs", &["is_zero"], "named for readers"),

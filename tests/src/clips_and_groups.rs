@@ -14,7 +14,7 @@ use vtex_format::{
 
 use crate::random::Random;
 pub use reference::Lens;
-pub use tree::{Clip, Group, Mask, Node, Part, Scope, Wants};
+pub use tree::{Clip, Compositing, Group, Mask, Node, Part, Wants};
 
 /// Lattice steps along a cell.
 const TEXELS_PER_CELL: u32 = 4;
@@ -105,7 +105,7 @@ fn random_tree(r: &mut Random, wants: Wants, depth: u32) -> Vec<Node> {
     }
 }
 
-/// The list of a random tree, none of its entries marked last or opaque; tests name some of
+/// The list of a random tree, none of its entries marked last or opaque; branches name some of
 /// `records`, the places of curve records, of which there may be none where no clip is wanted.
 pub(crate) fn random_list(r: &mut Random, wants: Wants, records: &[u32], depth: u32) -> Vec<Entry> {
     let mut places = [0; RECORDS];

@@ -5,13 +5,13 @@
 //! can tell apart. Nothing is cut or rounded, so every lookup gets the result that the coarse cell
 //! gives.
 
+mod clearance;
 mod clip;
 mod commands;
 mod depth;
 mod group;
 mod list;
 mod outline;
-mod room;
 
 use std::collections::BTreeMap;
 
@@ -24,7 +24,7 @@ use outline::Region;
 
 /// The cells that evaluators read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Refined {
+pub(crate) struct Subdivision {
     /// How often the file's cells are halved.
     pub(crate) depth: u32,
     /// One word a fine cell, row by row, as [`cell`] says.
@@ -34,7 +34,7 @@ pub(crate) struct Refined {
 }
 
 /// `halvings` as in [`crate::PackOptions`].
-pub(crate) fn refine(file: &VtexFile, filter: FilterMode, halvings: Option<u32>) -> Refined {
+pub(crate) fn subdivide(file: &VtexFile, filter: FilterMode, halvings: Option<u32>) -> Subdivision {
     let depth = match halvings {
         Some(halvings) => halvings.min(depth::MAX_DEPTH),
         None => depth::choose(file, filter),
@@ -64,9 +64,9 @@ pub(crate) fn refine(file: &VtexFile, filter: FilterMode, halvings: Option<u32>)
         }
     }
     if filter == FilterMode::Footprint {
-        room::write(&mut build.words, build.pitch);
+        clearance::write(&mut build.words, build.pitch);
     }
-    Refined {
+    Subdivision {
         depth,
         words: build.words,
         commands: build.commands,
@@ -85,11 +85,11 @@ fn whole_cell(file: &VtexFile) -> Region {
 }
 
 /// What the list of a fine cell serves, where `whole` is a cell of the file.
-fn reached(fine: &Region, whole: &Region, filter: FilterMode) -> Region {
+fn dilated(fine: &Region, whole: &Region, filter: FilterMode) -> Region {
     if filter == FilterMode::Footprint {
         let side = fine.x[1] - fine.x[0];
-        fine.grown(side * f64::from(cell::OVERLAP) / 16.0)
-            .meet(whole)
+        fine.dilated(side * f64::from(cell::OVERLAP) / 16.0)
+            .intersection(whole)
     } else {
         *fine
     }
@@ -126,7 +126,7 @@ impl Build {
             let corners = [[x, y], [x + half, y], [x, y + half], [x + half, y + half]];
             for (quarter, corner) in region.quarters().iter().zip(corners) {
                 self.list(
-                    &list.within(&reached(quarter, &self.whole, self.filter)),
+                    &list.within(&dilated(quarter, &self.whole, self.filter)),
                     quarter,
                     corner,
                     level - 1,
@@ -157,6 +157,6 @@ impl Build {
 }
 
 #[cfg(test)]
-mod scope_tests;
+mod clips_and_groups_tests;
 #[cfg(test)]
 mod tests;

@@ -59,29 +59,29 @@ fn tails(list: &List) -> Vec<u32> {
 }
 
 const FULL: EntryKind = EntryKind::Full;
-const TEST: EntryKind = EntryKind::Test;
+const BRANCH: EntryKind = EntryKind::Branch;
 
 #[test]
-fn tests_that_are_decided_go() {
+fn branches_that_are_decided_go() {
     let clip = list(&[
-        (TEST, false, 1, LEFT),
+        (BRANCH, false, 1, LEFT),
         (FULL, true, 3, 0),
         (FULL, true, 4, 0),
     ]);
     assert_eq!(clip.within(&around(1000.0, 900.0)).solid(), Some(3));
     assert_eq!(clip.within(&around(3000.0, 900.0)).solid(), Some(4));
     let edge = clip.within(&around(2000.0, 900.0));
-    let test = cmd::CONTROL_BIT | 1;
+    let branch = cmd::CONTROL_BIT | 1;
     let opaque = cmd::OPAQUE_BIT;
-    assert_eq!(tails(&edge), [test, opaque | 3, opaque | 4]);
+    assert_eq!(tails(&edge), [branch, opaque | 3, opaque | 4]);
     assert!(!edge.has_groups());
 }
 
 #[test]
 fn a_union_becomes_the_part_that_counts() {
     let union = list(&[
-        (TEST, true, 1, LEFT),
-        (TEST, false, 1, ABOVE),
+        (BRANCH, true, 1, LEFT),
+        (BRANCH, false, 1, ABOVE),
         (FULL, false, 3, 0),
     ]);
     assert_eq!(union.within(&around(1000.0, 3000.0)).solid(), Some(3));

@@ -6,7 +6,7 @@ use crate::layout::FilterMode;
 
 use super::list::List;
 use super::outline::Region;
-use super::{list_of, reached, whole_cell};
+use super::{dilated, list_of, whole_cell};
 
 /// Deepest subdivision: each step halves the sides of cells.
 pub(super) const MAX_DEPTH: u32 = 5;
@@ -48,14 +48,14 @@ pub(super) fn choose(file: &VtexFile, filter: FilterMode) -> u32 {
     let step = lists.len().div_ceil(SAMPLES).max(1);
     let mut sums = [Sums::default(); MAX_DEPTH as usize + 1];
     let whole = whole_cell(file);
-    let reached = |region: &Region| reached(region, &whole, filter);
+    let dilated = |region: &Region| dilated(region, &whole, filter);
     for &offset_words in lists.iter().step_by(step) {
         add(
             &mut sums,
             &list_of(file, offset_words),
             &whole,
             1.0,
-            &reached,
+            &dilated,
         );
     }
     let [cells, sampled, lists] =
@@ -78,14 +78,14 @@ pub(super) fn choose(file: &VtexFile, filter: FilterMode) -> u32 {
         .map_or(0, |(depth, _)| depth)
 }
 
-/// Adds `list`, which shows in `region`, `share` of a cell, to the sums from its depth on; `reached`
+/// Adds `list`, which shows in `region`, `share` of a cell, to the sums from its depth on; `dilated`
 /// says what the list of a region serves.
 fn add(
     sums: &mut [Sums],
     list: &List,
     region: &Region,
     share: f64,
-    reached: &impl Fn(&Region) -> Region,
+    dilated: &impl Fn(&Region) -> Region,
 ) {
     let Some((sum, deeper)) = sums.split_first_mut() else {
         return;
@@ -99,8 +99,8 @@ fn add(
     sum.stored += commands;
     if list.has_outlines() {
         for quarter in &region.quarters() {
-            let inner = list.within(&reached(quarter));
-            add(deeper, &inner, quarter, 0.25 * share, reached);
+            let inner = list.within(&dilated(quarter));
+            add(deeper, &inner, quarter, 0.25 * share, dilated);
         }
     } else {
         // What has no outline is not divided: the same list serves all its parts.

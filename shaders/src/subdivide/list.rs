@@ -185,10 +185,15 @@ impl Stored<'_> {
                 let outline = has_record.then(|| self.outline(*at)).flatten();
                 Node::Draw(Part { entry, outline })
             }
-            Block::Clip { tests, body } => {
+            Block::Clip { branches, body } => {
                 let outline = |at| self.outline(at).unwrap_or_default();
-                let tests = tests.clone();
-                Node::Clip(Clip::new(&self.entries, tests, outline, self.nodes(body)))
+                let branches = branches.clone();
+                Node::Clip(Clip::new(
+                    &self.entries,
+                    branches,
+                    outline,
+                    self.nodes(body),
+                ))
             }
             Block::Group {
                 masks,

@@ -26,7 +26,7 @@ pub(super) enum Order {
 pub(super) fn commands(nodes: &[Node], order: Order) -> Vec<[u32; 4]> {
     let mut writer = Writer {
         commands: Vec::new(),
-        jumps: Vec::new(),
+        branches: Vec::new(),
         order,
     };
     writer.nodes(nodes);
@@ -35,8 +35,8 @@ pub(super) fn commands(nodes: &[Node], order: Order) -> Vec<[u32; 4]> {
 
 struct Writer {
     commands: Vec<[u32; 4]>,
-    /// Last commands of entries that jump, and the commands they jump to.
-    jumps: Vec<(usize, usize)>,
+    /// Last commands of entries that branch, and the commands they branch to.
+    branches: Vec<(usize, usize)>,
     order: Order,
 }
 
@@ -85,11 +85,11 @@ impl Writer {
     fn clip(&mut self, clip: &Clip) {
         let mut places = Vec::new();
         let mut ends = Vec::new();
-        for test in &clip.tests {
+        for branch in &clip.branches {
             places.push(self.commands.len());
-            let inside = if test.inside { cmd::OPAQUE_BIT } else { 0 };
+            let inside = if branch.inside { cmd::OPAQUE_BIT } else { 0 };
             let tail = cmd::END_BIT | cmd::CONTROL_BIT | inside;
-            match &test.outline {
+            match &branch.outline {
                 None => self.commands.push([0, 0, 0, cmd::JUMP | tail]),
                 Some(outline) => self.outline(outline, cmd::CURVES | tail),
             }
@@ -98,13 +98,13 @@ impl Writer {
         let body = self.commands.len();
         self.nodes(&clip.body);
         let end = self.commands.len();
-        for (test, last) in clip.tests.iter().zip(ends) {
-            let target = match test.to {
-                Goal::Test(place) => places[place],
+        for (branch, last) in clip.branches.iter().zip(ends) {
+            let target = match branch.to {
+                Goal::Branch(place) => places[place],
                 Goal::Body => body,
                 Goal::End => end,
             };
-            self.jumps.push((last, target));
+            self.branches.push((last, target));
         }
     }
 
@@ -121,7 +121,8 @@ impl Writer {
         self.nodes(&group.body);
         self.control([group.opacity, group.mode, isolated], cmd::CLOSE);
         let end = self.commands.len();
-        self.jumps.extend(masks.into_iter().map(|mask| (mask, end)));
+        self.branches
+            .extend(masks.into_iter().map(|mask| (mask, end)));
     }
 
     fn control(&mut self, [x, y, z]: [u32; 3], op: u32) {
@@ -131,7 +132,7 @@ impl Writer {
 
     fn finish(mut self) -> Vec<[u32; 4]> {
         let count = self.commands.len();
-        for (from, to) in self.jumps {
+        for (from, to) in self.branches {
             let over = if to < count { to - from - 1 } else { 0 };
             let over = u32::try_from(over).unwrap_or(0) & cmd::INDEX_MASK;
             self.commands[from][3] |= over;
