@@ -116,9 +116,10 @@ mod feature = "FEATURE" {
     MAPPING = vtex_format::Features::MAPPING;
 }
 
-/// Parts of a fine cell's word: tags as of [`vtex_format::CellWord`], a list's payload counts commands.
-/// A cell with neither list nor groups has a clearance beside its paint: that many fine cells around it,
-/// in every direction, show the same. Only footprint lookups read it; for others it is 0.
+/// Parts of a fine cell's word: tags as of [`vtex_format::CellWord`], a list's payload counts
+/// commands. A cell with neither list nor groups has a clearance beside its paint: that many fine
+/// cells around it, in every direction, show the same. Only footprint lookups read it; for others
+/// it is 0.
 mod cell = "CELL" {
     /// Position of the tag.
     TAG_SHIFT = vtex_format::CELL_TAG_SHIFT;
@@ -144,16 +145,16 @@ mod cell = "CELL" {
 }
 
 /// A command of a list, four words. Curves are a command a segment: upper end, control point, lower
-/// end (x in the low half, y in the high half) and the word whose parts these are. Any other entry
-/// is one command whose first word is [`vtex_format::Entry::data`]. The last command of an entry carries
-/// what belongs to all of it: index, base, kind, rule, opaque and last.
+/// end (x in the low half, y in the high half) and the tag, the word whose parts these are. Any
+/// other entry is one command whose first word is [`vtex_format::Entry::data`]. The last command of
+/// an entry carries what belongs to all of it: index, base, kind, rule, opaque and last.
 ///
-/// An entry that draws nothing has [`CONTROL_BIT`](cmd::CONTROL_BIT) there. A branch is
-/// curves; others are one command whose kind is full, with [`JUMP`](cmd::JUMP),
-/// [`OPEN`](cmd::OPEN), [`CLOSE`](cmd::CLOSE) or [`MASK`](cmd::MASK). The
-/// index of a branch, jump or mask is the number of commands to pass over, 0 for all that follow; the
-/// opaque bit of a branch or jump says that it is taken inside. First words: of open 1 when isolated;
-/// of mask its kind; of close opacity (float), blend mode and 1 when isolated.
+/// An entry that draws nothing has [`CONTROL_BIT`](cmd::CONTROL_BIT) there. A branch is curves;
+/// others are one command whose kind is full, with [`JUMP`](cmd::JUMP), [`OPEN`](cmd::OPEN),
+/// [`CLOSE`](cmd::CLOSE) or [`MASK`](cmd::MASK). The index of a branch, jump or mask is the number
+/// of commands to pass over, 0 for all that follow; the opaque bit of a branch or jump says that it
+/// is taken inside. First words: of open 1 when isolated; of mask its kind; of close opacity
+/// (float), blend mode and 1 when isolated.
 mod cmd = "CMD" {
     /// Words of a command.
     WORDS = 4;

@@ -163,18 +163,18 @@ fn random_record(r: &mut Random) -> Vec<u32> {
 /// # Panics
 /// Never: a polygon has few corners.
 pub fn polygon_record(corners: &[[u32; 2]]) -> Vec<u32> {
-    let mut runs = [const { Vec::new() }; 2];
+    let mut by_direction = [const { Vec::new() }; 2];
     for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
         let down = to[1] > from[1];
         let [a, b] = if down { [from, to] } else { [to, from] };
-        runs[usize::from(!down)].extend([a, b].map(|[x, y]| x | y << 16));
+        by_direction[usize::from(!down)].extend([a, b].map(|[x, y]| x | y << 16));
     }
     let count = |words: &Vec<u32>| u32::try_from(words.len() / 2).expect("few corners");
     let header = CurveHeader {
-        line_count: count(&runs[0]) + count(&runs[1]),
-        down_line_count: count(&runs[0]),
+        line_count: count(&by_direction[0]) + count(&by_direction[1]),
+        down_line_count: count(&by_direction[0]),
         ..CurveHeader::default()
     };
     let head = header.encode().expect("few corners");
-    [&head[..], &runs[0], &runs[1]].concat()
+    [&head[..], &by_direction[0], &by_direction[1]].concat()
 }

@@ -38,7 +38,7 @@ const ALL: Wants = Wants {
 };
 
 /// What a drawing shows at `uv`.
-fn shown(drawing: &Drawing, uv: [f32; 2]) -> [f64; 4] {
+fn expected_color(drawing: &Drawing, uv: [f32; 2]) -> [f64; 4] {
     let x = uv[0] * CELLS as f32;
     let column = x.floor().clamp(0.0, (CELLS - 1) as f32);
     #[expect(
@@ -54,7 +54,7 @@ fn shown(drawing: &Drawing, uv: [f32; 2]) -> [f64; 4] {
 fn mean(drawing: &Drawing, places: &[[f32; 2]]) -> [f64; 4] {
     let mut sum = [0.0; 4];
     for &place in places {
-        let color = shown(drawing, place);
+        let color = expected_color(drawing, place);
         sum = std::array::from_fn(|i| sum[i] + color[i]);
     }
     sum.map(|channel| channel / places.len() as f64)

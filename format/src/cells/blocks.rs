@@ -8,8 +8,8 @@
 //! - a *group*: any number of masks, each `Open` (isolated), blocks, `Mask`, then `Open`, blocks,
 //!   `Close`. A mask branches over all that follows it, up to and with the `Close`.
 //!
-//! Where a clip begins and ends follows from where its branches lead: it is the shortest run of entries
-//! from its first branch on that no branch inside it leaves.
+//! Where a clip begins and ends follows from where its branches lead: it is the shortest range of
+//! entries from its first branch on that no branch inside it leaves.
 
 use std::ops::Range;
 
@@ -29,7 +29,8 @@ pub enum Block {
     Draw(usize),
     /// Blocks that show where branches let them through.
     Clip {
-        /// The branches. [`branch_target`] of each is in the range, its end, or the end of the body.
+        /// The branches. [`branch_target`] of each is in the range, its end, or the end of the
+        /// body.
         branches: Range<usize>,
         /// What they guard; not empty.
         body: Vec<Self>,
@@ -72,7 +73,8 @@ pub struct ListFault {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ListFaultKind {
-    /// A branch leaves its list or group, ends leads into another, or among what a clip lets through.
+    /// A branch leaves its list or group, ends leads into another, or among what a clip lets
+    /// through.
     #[error("a branch to where none may lead")]
     Branch,
     /// An `Open` without end, or an end without `Open`.
@@ -97,9 +99,8 @@ pub const fn branch_target(at: usize, entry: &Entry) -> usize {
 
 /// The blocks of a list, front to back; `entries` are all of it.
 ///
-/// # Errors
-/// [`ListFault`] with the first rule that is broken, [`ListFaultKind::BlendDepth`] only where that is
-/// far beyond the bound: [`list_blend_depth`] tells exactly.
+/// # Errors [`ListFault`] with the first rule that is broken, [`ListFaultKind::BlendDepth`] only
+/// where that is far beyond the bound: [`list_blend_depth`] tells exactly.
 pub fn list_blocks(entries: &[Entry]) -> Result<Vec<Block>, ListFault> {
     let parser = Parser {
         entries,
@@ -108,9 +109,9 @@ pub fn list_blocks(entries: &[Entry]) -> Result<Vec<Block>, ListFault> {
     parser.blocks(0..entries.len(), 0)
 }
 
-/// How many levels of the blend stack a list needs at most: one for each group and clip in one another, and
-/// inside a clip's branches one for each place where a branch over it may still lead. At most
-/// [`MAX_BLEND_DEPTH`]; 0 without control entries.
+/// How many levels of the blend stack a list needs at most: one for each group and clip in one
+/// another, and inside a clip's branches one for each place where a branch over it may still lead.
+/// At most [`MAX_BLEND_DEPTH`]; 0 without control entries.
 ///
 /// # Errors
 /// [`ListFault`] with the first rule that is broken.
@@ -134,8 +135,8 @@ fn depth_of(blocks: &[Block], entries: &[Entry]) -> u32 {
     let of = |block: &Block| match block {
         Block::Draw(_) => 0,
         Block::Clip { branches, body } => {
-            // While branches run, each place where a branch may still lead takes a level. Behind them one
-            // level stands for the whole clip.
+            // While branches run, each place where a branch may still lead takes a level. Behind
+            // them one level stands for the whole clip.
             waiting_branches(branches.clone(), entries).max(1 + depth_of(body, entries))
         }
         Block::Group { masks, body, .. } => {
@@ -239,7 +240,8 @@ impl Parser<'_> {
     fn clip_range(&self, start: usize, end: usize) -> Result<(usize, usize), ListFault> {
         let target = |at: usize| branch_target(at, &self.entries[at]);
         let stray = |at| fault(at, ListFaultKind::Branch);
-        // The clip ends where its farthest branch leads, so each branch on the way may move its end.
+        // The clip ends where its farthest branch leads, so each branch on the way may move its
+        // end.
         let (mut close, mut branches_end) = (target(start), start + 1);
         let mut at = start + 1;
         while at < close.min(end) {
@@ -270,8 +272,8 @@ impl Parser<'_> {
             }
             at += 1;
         }
-        // Branches behind these that lead to the end guard the same body: they are branches of this clip,
-        // not clips in its body.
+        // Branches behind these that lead to the end guard the same body: they are branches of this
+        // clip, not clips in its body.
         let more = self.entries[branches_end..close].iter().zip(branches_end..);
         let guards =
             more.take_while(|&(entry, at)| entry.kind == EntryKind::Branch && target(at) == close);

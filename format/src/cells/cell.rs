@@ -17,11 +17,11 @@ const INDEX_MASK: u32 = OPAQUE_BIT - 1;
 pub const MAX_INDEXED: u32 = 1 << 18;
 /// Bits of 1.0: floats from 0 to 1 ascend as their bits do.
 const ONE_BITS: u32 = 0x3f80_0000;
-/// Commands that a list may hold: segments and changes of the winding of its curve records; an entry
-/// without any is one. Bounds every evaluator loop over them.
+/// Commands that a list may hold: segments and changes of the winding of its curve records; an
+/// entry without any is one. Bounds every evaluator loop over them.
 pub const MAX_LIST_COMMANDS: u32 = 1 << 15;
-/// Commands that all lists together may hold: what one storage binding of core WebGPU takes, 128 MiB
-/// at 16 bytes.
+/// Commands that all lists together may hold: what one storage binding of core WebGPU takes, 128
+/// MiB at 16 bytes.
 pub const MAX_COMMANDS: u64 = 1 << 23;
 
 /// One cell of the grid.
@@ -145,7 +145,8 @@ impl Entry {
         let last = if self.last { LAST_BIT } else { 0 };
         let opaque = if self.opaque { OPAQUE_BIT } else { 0 };
         let head = ((self.kind as u32) << KIND_SHIFT) | last | opaque | self.index;
-        // The stored field is wider than MAX_INDEXED; evaluators' commands have 18 bits for the index.
+        // The stored field is wider than MAX_INDEXED; evaluators' commands have 18 bits for the
+        // index.
         (self.index < MAX_INDEXED && self.is_sound()).then_some([head, self.data])
     }
 

@@ -147,8 +147,9 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) {
                         if count > u64::from(MAX_LIST_COMMANDS) {
                             note(issue::LIST_COMMANDS, format_args!("{count} commands"));
                         }
-                        // Lists that overlap could take quadratic time. The bound on all commands, one
-                        // at least for each entry, keeps the work linear: past it none is parsed.
+                        // Lists that overlap could take quadratic time. The bound on all commands,
+                        // one at least for each entry, keeps the work linear: past it none is
+                        // parsed.
                         if has_controls && is_new && commands.total <= MAX_COMMANDS {
                             controls(&file.entries, first, issues);
                         }
@@ -247,8 +248,8 @@ fn entry_commands(file: &VtexFile, words: [u32; 2]) -> u64 {
     // Evaluators take a command for each unit by which a step changes the winding.
     let changes = steps.map(|step| u64::from((step.cast_signed() >> 16).unsigned_abs()));
     let base = header.base_winding;
-    // An evaluator's command holds a base winding of four bits, -8 to 7. Each unit beyond takes another
-    // command.
+    // An evaluator's command holds a base winding of four bits, -8 to 7. Each unit beyond takes
+    // another command.
     let beyond = base.saturating_sub(7).max(-8 - base).max(0).unsigned_abs();
     let segments = u64::from(header.line_count) + u64::from(header.quad_count);
     (segments + changes.sum::<u64>() + u64::from(beyond)).max(1)

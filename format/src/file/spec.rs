@@ -22,8 +22,8 @@ pub struct SpecKey {
 
 /// Groups and masks of a list that may be open at once without [`Features::DEEP_GROUPS`].
 ///
-/// An evaluator keeps a level of its blend stack, five words, for each. Two still lie in registers at little cost, and
-/// no list of 330 real files needs more (docs/decisions/0017).
+/// An evaluator keeps a level of its blend stack, five words, for each. Two still lie in registers
+/// at little cost, and no list of 330 real files needs more (docs/decisions/0017).
 pub const SHALLOW_BLEND_DEPTH: u32 = 2;
 
 /// Bits of [`SpecKey::features`]. Code for an absent feature is not in the shader.
@@ -159,8 +159,9 @@ impl<'a> Content<'a> {
     }
 }
 
-/// Whether more than [`SHALLOW_BLEND_DEPTH`] groups and masks of a list are open at once. Lists that share a
-/// tail share whole blocks, in which as many open as close, so one pass over all entries will do.
+/// Whether more than [`SHALLOW_BLEND_DEPTH`] groups and masks of a list are open at once. Lists
+/// that share a suffix share whole blocks, in which as many open as close, so one pass over all
+/// entries will do.
 fn is_deep(entries: impl Iterator<Item = Entry>) -> bool {
     let mut depth = 0_u32;
     for entry in entries {

@@ -12,9 +12,9 @@ pub(super) struct BrushColor {
     pub(super) linear: [f32; 4],
 }
 
-pub(super) fn brush(sampler: &Sampler<'_>, head: u32, uv: [f32; 2], lookup: &Lookup) -> BrushColor {
-    let index = head & cmd::INDEX_MASK;
-    if head & cmd::KIND_MASK == cmd::IMAGE {
+pub(super) fn brush(sampler: &Sampler<'_>, tag: u32, uv: [f32; 2], lookup: &Lookup) -> BrushColor {
+    let index = tag & cmd::INDEX_MASK;
+    if tag & cmd::KIND_MASK == cmd::IMAGE {
         let linear = image::entry(sampler, index, uv, lookup);
         return BrushColor {
             encoded: color::encode_premultiplied(linear),

@@ -32,10 +32,10 @@ pub struct LookupCost {
 pub(super) trait Observer {
     /// A fine cell.
     fn cell(&mut self);
-    /// A command with this last word.
-    fn command(&mut self, tail: u32);
-    /// The paint or image of an entry with this last word.
-    fn paint(&mut self, head: u32);
+    /// A command with this tag.
+    fn command(&mut self, tag: u32);
+    /// The paint or image of an entry with this tag.
+    fn paint(&mut self, tag: u32);
 }
 
 /// Nobody watches.
@@ -57,12 +57,12 @@ impl Observer for Counter {
         self.cost.bytes += CELL_BYTES;
     }
 
-    fn command(&mut self, tail: u32) {
+    fn command(&mut self, tag: u32) {
         self.commands += 1;
         self.cost.bytes += COMMAND_BYTES;
-        if tail & cmd::END_BIT != 0 {
+        if tag & cmd::END_BIT != 0 {
             self.cost.entries += 1;
-            match tail & cmd::KIND_MASK {
+            match tag & cmd::KIND_MASK {
                 cmd::CURVES => self.cost.segments += self.commands,
                 cmd::MSDF => {
                     self.cost.tiles += 1;
@@ -74,8 +74,8 @@ impl Observer for Counter {
         }
     }
 
-    fn paint(&mut self, head: u32) {
-        let image = head & cmd::KIND_MASK == cmd::IMAGE;
+    fn paint(&mut self, tag: u32) {
+        let image = tag & cmd::KIND_MASK == cmd::IMAGE;
         self.cost.bytes += if image { IMAGE_BYTES } else { PAINT_BYTES };
     }
 }

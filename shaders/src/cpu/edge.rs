@@ -22,8 +22,8 @@ impl<S: Samples> Edge<S> {
         samples.wind(&mut self.winding, command);
     }
 
-    /// The samples that the entry with this last command covers; the next entry begins. Of those that
-    /// are not in `live` nothing is said.
+    /// The samples that the entry with this last command covers; the next entry begins. Of those
+    /// that are not in `live` nothing is said.
     pub(super) fn covered(
         &mut self,
         sampler: &Sampler<'_>,
@@ -76,9 +76,9 @@ fn within<S: Samples>(sampler: &Sampler<'_>, samples: &S, tile: u32, least: f32,
     mask
 }
 
-/// The samples for which a branch or jump with this last word is taken, when it covers `covered`.
-pub(super) const fn taken(tail: u32, covered: u32) -> u32 {
-    if tail & cmd::OPAQUE_BIT != 0 {
+/// The samples for which a branch or jump with this tag is taken, when it covers `covered`.
+pub(super) const fn taken(tag: u32, covered: u32) -> u32 {
+    if tag & cmd::OPAQUE_BIT != 0 {
         covered
     } else {
         !covered
@@ -89,15 +89,15 @@ pub(super) const fn taken(tail: u32, covered: u32) -> u32 {
 pub(super) const BEYOND: u32 = u32::MAX;
 
 /// Where a control command branches to, when `next` follows it.
-pub(super) const fn target(tail: u32, next: u32) -> u32 {
-    match tail & cmd::INDEX_MASK {
+pub(super) const fn target(tag: u32, next: u32) -> u32 {
+    match tag & cmd::INDEX_MASK {
         0 => BEYOND,
         over => next.wrapping_add(over.wrapping_mul(cmd::WORDS)),
     }
 }
 
-/// Whether a control command with this last word is a branch or a jump.
-pub(super) const fn is_branch(tail: u32) -> bool {
-    let op = tail & cmd::CONTROL_MASK;
-    tail & cmd::KIND_MASK == cmd::CURVES || op == cmd::JUMP
+/// Whether a control command with this tag is a branch or a jump.
+pub(super) const fn is_branch(tag: u32) -> bool {
+    let op = tag & cmd::CONTROL_MASK;
+    tag & cmd::KIND_MASK == cmd::CURVES || op == cmd::JUMP
 }

@@ -31,21 +31,21 @@ pub(super) fn groups<S: Samples>(
             break;
         }
         let words: [u32; 4] = sampler.words(at);
-        let tail = words[3];
+        let tag = words[3];
         at = at.wrapping_add(cmd::WORDS);
         edge.wind(samples, words);
-        observer.command(tail);
-        if tail & cmd::END_BIT == 0 {
+        observer.command(tag);
+        if tag & cmd::END_BIT == 0 {
             continue;
         }
         let covered = edge.covered(sampler, samples, words, live);
         let next = at;
-        if tail & cmd::LAST_BIT != 0 {
+        if tag & cmd::LAST_BIT != 0 {
             at = BEYOND;
         }
-        if tail & cmd::CONTROL_BIT != 0 {
-            let branches = if is_branch(tail) {
-                let taken = taken(tail, covered);
+        if tag & cmd::CONTROL_BIT != 0 {
+            let branches = if is_branch(tag) {
+                let taken = taken(tag, covered);
                 let leads = taken & leader != 0;
                 live &= if leads { taken } else { !taken };
                 leads
@@ -53,12 +53,12 @@ pub(super) fn groups<S: Samples>(
                 stack.control(words)
             };
             if branches {
-                at = target(tail, next);
+                at = target(tag, next);
             }
         } else if covered & leader != 0 {
             live &= covered;
-            observer.paint(tail);
-            let brush = brush(sampler, tail, samples.uv(live), lookup).encoded;
+            observer.paint(tag);
+            let brush = brush(sampler, tag, samples.uv(live), lookup).encoded;
             let through = 1.0 - brush[3];
             stack.color = std::array::from_fn(|i| brush[i] + through * stack.color[i]);
         } else {

@@ -26,15 +26,15 @@ pub(super) fn paper<S: Samples>(
             break;
         }
         let words: [u32; 4] = sampler.words(at);
-        let tail = words[3];
+        let tag = words[3];
         at = at.wrapping_add(cmd::WORDS);
         edge.wind(samples, words);
-        if tail & cmd::END_BIT == 0 {
+        if tag & cmd::END_BIT == 0 {
             continue;
         }
         let mut inner = 1.0;
         let mut outer = 0.0;
-        if tail & cmd::KIND_MASK == cmd::MSDF {
+        if tag & cmd::KIND_MASK == cmd::MSDF {
             let distance = msdf::distance(sampler, words[0], samples.centre());
             inner = ramp(sampler, distance);
             if s.outline {
@@ -43,24 +43,24 @@ pub(super) fn paper<S: Samples>(
         } else if edge.covered(sampler, samples, words, 1) & 1 == 0 {
             inner = 0.0;
         }
-        if tail & cmd::CONTROL_BIT != 0 {
-            if taken(tail, u32::from(inner > 0.0)) & 1 != 0 {
-                at = target(tail, at);
+        if tag & cmd::CONTROL_BIT != 0 {
+            if taken(tag, u32::from(inner > 0.0)) & 1 != 0 {
+                at = target(tag, at);
                 continue;
             }
         } else {
             // Shape and ring exclude each other: both lie over what is behind.
             let mut entry = [0.0; 4];
-            for (share, head) in [(inner, tail), ((outer - inner).max(0.0), s.outline_head)] {
+            for (share, tag) in [(inner, tag), ((outer - inner).max(0.0), s.outline_tag)] {
                 if share > 0.0 {
-                    let brush = brush(sampler, head, samples.uv(1), lookup).encoded;
+                    let brush = brush(sampler, tag, samples.uv(1), lookup).encoded;
                     entry = std::array::from_fn(|i| entry[i] + share * brush[i]);
                 }
             }
             let through = 1.0 - color[3];
             color = std::array::from_fn(|i| color[i] + through * entry[i]);
         }
-        if tail & cmd::LAST_BIT != 0 {
+        if tag & cmd::LAST_BIT != 0 {
             break;
         }
     }

@@ -247,14 +247,14 @@ impl Samples for CellRows {
         }
     }
 
-    fn filled(&self, winding: Winding, tail: u32) -> u32 {
+    fn filled(&self, winding: Winding, tag: u32) -> u32 {
         // What the segments' windings are where all of it is none.
-        let none = base(tail).wrapping_neg().cast_unsigned();
+        let none = base(tag).wrapping_neg().cast_unsigned();
         let mut some = 0;
         for (bit, bits) in winding.iter().enumerate() {
             some |= bits ^ (none >> bit & 1).wrapping_neg();
         }
-        if tail & EVEN_ODD_BIT != 0 {
+        if tag & EVEN_ODD_BIT != 0 {
             winding[0] ^ (none & 1).wrapping_neg()
         } else {
             some

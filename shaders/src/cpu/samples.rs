@@ -11,8 +11,8 @@ pub(super) trait Samples {
     type Winding: Copy + Default;
     /// Adds what a segment does to the windings.
     fn wind(&self, winding: &mut Self::Winding, command: [u32; 4]);
-    /// The samples that an entry with this last word covers.
-    fn filled(&self, winding: Self::Winding, tail: u32) -> u32;
+    /// The samples that an entry with this tag covers.
+    fn filled(&self, winding: Self::Winding, tag: u32) -> u32;
     /// The mean of samples, in uv.
     fn uv(&self, mask: u32) -> Vec2;
     /// The place of one sample inside the file's cell.
@@ -39,9 +39,9 @@ impl Samples for Point {
         *winding += segment::winding(command, self.p);
     }
 
-    fn filled(&self, winding: i32, tail: u32) -> u32 {
-        let total = winding + base(tail);
-        u32::from(if tail & EVEN_ODD_BIT != 0 {
+    fn filled(&self, winding: i32, tag: u32) -> u32 {
+        let total = winding + base(tag);
+        u32::from(if tag & EVEN_ODD_BIT != 0 {
             total & 1 != 0
         } else {
             total != 0
@@ -61,7 +61,7 @@ impl Samples for Point {
     }
 }
 
-/// The winding that an entry's last word says its segments begin with.
-pub(super) const fn base(tail: u32) -> i32 {
-    (tail << BASE_LEFT).cast_signed() >> BASE_RIGHT
+/// The winding that an entry's tag says its segments begin with.
+pub(super) const fn base(tag: u32) -> i32 {
+    (tag << BASE_LEFT).cast_signed() >> BASE_RIGHT
 }

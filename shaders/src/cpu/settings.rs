@@ -25,8 +25,8 @@ pub(super) struct Settings {
     /// Whether eq. 2's outline is on.
     pub(super) outline: bool,
     pub(super) outline_paint: u32,
-    /// What `vtex_outline_head` gives; without outline one that hides nothing of `head`.
-    pub(super) outline_head: u32,
+    /// What `vtex_outline_tag` gives; without outline one that hides nothing.
+    pub(super) outline_tag: u32,
     pub(super) cells: u32,
     pub(super) commands: u32,
     pub(super) paints: u32,
@@ -59,7 +59,7 @@ impl Settings {
             outline_width: float(header::OUTLINE_WIDTH),
             outline: false,
             outline_paint: word(header::OUTLINE_PAINT),
-            outline_head: cmd::OPAQUE_BIT,
+            outline_tag: cmd::OPAQUE_BIT,
             cells: word(header::CELLS),
             commands: word(header::COMMANDS),
             paints: word(header::PAINTS),
@@ -80,7 +80,7 @@ impl Settings {
                 0
             };
             settings.outline = true;
-            settings.outline_head = index | opaque;
+            settings.outline_tag = index | opaque;
         }
         settings
     }

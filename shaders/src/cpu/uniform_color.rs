@@ -62,22 +62,22 @@ impl Sampler<'_> {
         let mut at = s.commands.wrapping_add(offset.wrapping_mul(cmd::WORDS));
         for _ in 0..cmd::LIMIT {
             let words: [u32; 4] = self.words(at);
-            let tail = words[3];
+            let tag = words[3];
             // Of a curve's segments only the last says what they are.
-            let kind = tail & cmd::KIND_MASK;
-            let end = tail & cmd::END_BIT != 0;
+            let kind = tag & cmd::KIND_MASK;
+            let end = tag & cmd::END_BIT != 0;
             let full = end && kind == cmd::FULL;
             if kind == cmd::MSDF || kind == cmd::IMAGE {
                 return false;
             }
-            if end && self.varies(tail & cmd::INDEX_MASK) {
+            if end && self.varies(tag & cmd::INDEX_MASK) {
                 return false;
             }
             if !full && !segment::is_constant(words, low, high) {
                 return false;
             }
             at = at.wrapping_add(cmd::WORDS);
-            if tail & cmd::LAST_BIT != 0 || self.is_past(at) {
+            if tag & cmd::LAST_BIT != 0 || self.is_past(at) {
                 break;
             }
         }

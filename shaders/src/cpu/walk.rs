@@ -1,8 +1,9 @@
-//! Twin of `vtex/walk.wgsl`, `vtex/composite_*.wgsl` and `vtex/resolved.wgsl`: the walk over a cell's list, front to back.
+//! Twin of `vtex/walk.wgsl`, `vtex/composite_*.wgsl` and `vtex/resolved.wgsl`: the walk over a
+//! cell's list, front to back.
 //!
 //! All samples of one walk have met the same entries so far, so one colour stands for them. Those
-//! that an opaque entry covers are done. At any other entry or branch the samples part: the walk goes
-//! on with those that do as the first of them does, and another walk begins with the rest.
+//! that an opaque entry covers are done. At any other entry or branch the samples part: the walk
+//! goes on with those that do as the first of them does, and another walk begins with the rest.
 
 use vtex_format::Features;
 
@@ -60,20 +61,20 @@ pub(super) fn walk<S: Samples>(
         if words[3] & cmd::END_BIT == 0 {
             continue;
         }
-        let tail = words[3];
+        let tag = words[3];
         let covered = edge.covered(sampler, samples, words, composite.live);
-        if tail & cmd::CONTROL_BIT != 0 {
-            if composite.part(taken(tail, covered)) {
-                at = target(tail, at);
+        if tag & cmd::CONTROL_BIT != 0 {
+            if composite.part(taken(tag, covered)) {
+                at = target(tag, at);
                 continue;
             }
         } else {
-            composite.draw(sampler, lookup, samples, covered, tail, observer);
+            composite.draw(sampler, lookup, samples, covered, tag, observer);
             let ring = ring(sampler, samples, words, covered, composite.live);
-            let head = sampler.settings.outline_head;
-            composite.draw(sampler, lookup, samples, ring, head, observer);
+            let tag = sampler.settings.outline_tag;
+            composite.draw(sampler, lookup, samples, ring, tag, observer);
         }
-        if tail & cmd::LAST_BIT != 0 {
+        if tag & cmd::LAST_BIT != 0 {
             break;
         }
     }
@@ -130,23 +131,23 @@ impl Composite {
         lookup: &Lookup,
         samples: &S,
         covered: u32,
-        head: u32,
+        tag: u32,
         observer: &mut impl Observer,
     ) {
         let met = covered & self.live;
         if met == 0 {
             return;
         }
-        observer.paint(head);
-        let opaque = head & cmd::OPAQUE_BIT != 0;
+        observer.paint(tag);
+        let opaque = tag & cmd::OPAQUE_BIT != 0;
         let uv = samples.uv(met);
         // An opaque paint alone needs no transfer function.
-        if opaque && self.count == 0 && head & cmd::KIND_MASK != cmd::IMAGE {
-            let color = paint::linear(sampler, head & cmd::INDEX_MASK, uv);
+        if opaque && self.count == 0 && tag & cmd::KIND_MASK != cmd::IMAGE {
+            let color = paint::linear(sampler, tag & cmd::INDEX_MASK, uv);
             self.hide(color, met);
             return;
         }
-        let brush = brush(sampler, head, uv, lookup);
+        let brush = brush(sampler, tag, uv, lookup);
         // An opaque image shows nothing, and hides nothing, outside its rectangle.
         if opaque && brush.encoded[3] > 0.0 {
             let before = (self.count, self.only, self.color);

@@ -5,8 +5,8 @@ use crate::layout::cell;
 /// Of a cell whose neighbours are not known to differ.
 const GREATEST: u8 = cell::CLEARANCE_MASK.to_le_bytes()[0];
 
-/// Writes their clearance into the words of cells without lists; `words` has rows of `pitch`. Beyond the
-/// grid nothing differs, because no lookup samples there.
+/// Writes their clearance into the words of cells without lists; `words` has rows of `pitch`.
+/// Beyond the grid nothing differs, because no lookup samples there.
 pub(super) fn write(words: &mut [u32], pitch: usize) {
     if pitch == 0 {
         return;

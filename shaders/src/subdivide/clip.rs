@@ -107,7 +107,8 @@ impl Branch {
 /// Goal of a decided branch that is never taken: its own place or one before is none.
 const NEVER: Goal = Goal::Branch(0);
 
-/// For each branch where a lookup that comes to it goes: to a branch that is not decided, or beyond.
+/// For each branch where a lookup that comes to it goes: to a branch that is not decided, or
+/// beyond.
 fn goals(branches: &[Branch]) -> Vec<Goal> {
     let mut goals = vec![Goal::Body; branches.len() + 1];
     for (place, branch) in branches.iter().enumerate().rev() {

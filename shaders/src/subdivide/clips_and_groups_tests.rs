@@ -51,8 +51,8 @@ fn around(x: f64, y: f64) -> Region {
     }
 }
 
-/// Last words of the commands without what a list's order gives them.
-fn tails(list: &List) -> Vec<u32> {
+/// Tags of the commands without what a list's order gives them.
+fn tags(list: &List) -> Vec<u32> {
     let commands = list.commands(Order::FrontToBack);
     let kept = cmd::CONTROL_BIT | cmd::INDEX_MASK | cmd::OPAQUE_BIT;
     commands.iter().map(|command| command[3] & kept).collect()
@@ -73,7 +73,7 @@ fn branches_that_are_decided_go() {
     let edge = clip.within(&around(2000.0, 900.0));
     let branch = cmd::CONTROL_BIT | 1;
     let opaque = cmd::OPAQUE_BIT;
-    assert_eq!(tails(&edge), [branch, opaque | 3, opaque | 4]);
+    assert_eq!(tags(&edge), [branch, opaque | 3, opaque | 4]);
     assert!(!edge.has_groups());
 }
 
@@ -89,7 +89,7 @@ fn a_union_becomes_the_part_that_counts() {
     assert!(union.within(&around(3000.0, 3000.0)).is_empty());
     // Only the left one is left: it is turned, so that its body follows it.
     let edge = union.within(&around(2000.0, 3000.0));
-    assert_eq!(tails(&edge), [cmd::CONTROL_BIT, 3]);
+    assert_eq!(tags(&edge), [cmd::CONTROL_BIT, 3]);
     let both = union.within(&around(2000.0, 2000.0));
     assert_eq!(both.command_count(), union.command_count());
 }

@@ -58,13 +58,13 @@ impl Writer {
 
     fn draw(&mut self, Part { entry, outline }: &Part) {
         match outline {
-            None => self.commands.push([entry.data, 0, 0, tail(entry)]),
-            Some(outline) => self.outline(outline, tail(entry)),
+            None => self.commands.push([entry.data, 0, 0, tag(entry)]),
+            Some(outline) => self.outline(outline, tag(entry)),
         }
     }
 
-    /// The commands of an outline, of which the last carries `tail`.
-    fn outline(&mut self, outline: &Outline, tail: u32) {
+    /// The commands of an outline, of which the last carries `tag`.
+    fn outline(&mut self, outline: &Outline, tag: u32) {
         let first = self.commands.len();
         let base = outline.base.clamp(-BASE_LIMIT, BASE_LIMIT - 1);
         push_outline(&mut self.commands, outline, outline.base - base);
@@ -78,7 +78,7 @@ impl Writer {
             0
         };
         if let Some(end) = self.commands.last_mut() {
-            end[3] |= tail | base | rule;
+            end[3] |= tag | base | rule;
         }
     }
 
@@ -88,10 +88,10 @@ impl Writer {
         for branch in &clip.branches {
             places.push(self.commands.len());
             let inside = if branch.inside { cmd::OPAQUE_BIT } else { 0 };
-            let tail = cmd::END_BIT | cmd::CONTROL_BIT | inside;
+            let tag = cmd::END_BIT | cmd::CONTROL_BIT | inside;
             match &branch.outline {
-                None => self.commands.push([0, 0, 0, cmd::JUMP | tail]),
-                Some(outline) => self.outline(outline, cmd::CURVES | tail),
+                None => self.commands.push([0, 0, 0, cmd::JUMP | tag]),
+                Some(outline) => self.outline(outline, cmd::CURVES | tag),
             }
             ends.push(self.commands.len() - 1);
         }
@@ -126,8 +126,8 @@ impl Writer {
     }
 
     fn control(&mut self, [x, y, z]: [u32; 3], op: u32) {
-        let tail = cmd::END_BIT | cmd::CONTROL_BIT | op;
-        self.commands.push([x, y, z, tail]);
+        let tag = cmd::END_BIT | cmd::CONTROL_BIT | op;
+        self.commands.push([x, y, z, tag]);
     }
 
     fn finish(mut self) -> Vec<[u32; 4]> {
@@ -144,7 +144,7 @@ impl Writer {
     }
 }
 
-fn tail(entry: &Entry) -> u32 {
+fn tag(entry: &Entry) -> u32 {
     let opaque = if entry.opaque { cmd::OPAQUE_BIT } else { 0 };
     let kind = match entry.kind {
         EntryKind::Msdf => cmd::MSDF,

@@ -15,13 +15,13 @@ const SAMPLES: usize = 192;
 /// Cost of walking a command. The unit is a lookup in a cell of one colour (about 7.5 ns on two
 /// cores under llvmpipe, where a command takes 2 ns).
 const COMMAND_COST: f64 = 0.27;
-/// The same for the samples of a footprint: 34 ns where a point's command takes 21, in the busiest part of
-/// the Tiger on a slower machine. (The twin takes 4.8 times as long for one, but is not what most
-/// lookups run on.)
+/// The same for the samples of a footprint: 34 ns where a point's command takes 21, in the busiest
+/// part of the Tiger on a slower machine. (The twin takes 4.8 times as long for one, but is not
+/// what most lookups run on.)
 const FOOTPRINT_COMMAND_COST: f64 = 0.45;
-/// Cost of a MiB. What it is worth in time is a judgement: each must save a mean lookup a command in
-/// fourteen. Twice this takes 10% off the rate in the busiest part of a coat of arms (`saxony`), and
-/// 2.4 of its 6.0 MiB.
+/// Cost of a MiB. What it is worth in time is a judgement: each must save a mean lookup a command
+/// in fourteen. Twice this takes 10% off the rate in the busiest part of a coat of arms (`saxony`),
+/// and 2.4 of its 6.0 MiB.
 const MIB_COST: f64 = 0.02;
 /// No depth takes more words and commands than this, unless the file's own cells do.
 const MAX_MIB: f64 = 48.0;
@@ -78,8 +78,8 @@ pub(super) fn choose(file: &VtexFile, filter: FilterMode) -> u32 {
         .map_or(0, |(depth, _)| depth)
 }
 
-/// Adds `list`, which shows in `region`, `share` of a cell, to the sums from its depth on; `dilated`
-/// says what the list of a region serves.
+/// Adds `list`, which shows in `region`, `share` of a cell, to the sums from its depth on;
+/// `dilated` says what the list of a region serves.
 fn add(
     sums: &mut [Sums],
     list: &List,

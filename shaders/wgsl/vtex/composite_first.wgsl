@@ -19,10 +19,10 @@ fn vtex_composite_start(live: u32) -> VtexComposite {
 
 fn vtex_composite_draw(
     vt: VtexTexture, lookup: VtexLookup, composite: VtexComposite, samples: VtexSamples,
-    covered: u32, head: u32,
+    covered: u32, tag: u32,
 ) -> VtexComposite {
     let shows = (covered & composite.live) != 0u;
-    let paint = select(composite.paint, head & VTEX_CMD_INDEX_MASK, shows);
+    let paint = select(composite.paint, tag & VTEX_CMD_INDEX_MASK, shows);
     return VtexComposite(composite.live & ~covered, composite.shows || shows, paint);
 }
 

@@ -6,8 +6,8 @@
 //!use vtex/paint
 // What the samples of a footprint meet where all paints are opaque. A walk ends where its samples
 // meet a third entry; those that the first two do not cover take another walk. So paints are read
-// once behind the walk and not at each of its commands, which costs all lanes that walk with a longer
-// one.
+// once behind the walk and not at each of its commands, which costs all lanes that walk with a
+// longer one.
 
 struct VtexComposite {
     // The samples that the walk goes on with.
@@ -25,10 +25,10 @@ fn vtex_composite_start(live: u32) -> VtexComposite {
 
 fn vtex_composite_draw(
     vt: VtexTexture, lookup: VtexLookup, composite: VtexComposite, samples: VtexSamples,
-    covered: u32, head: u32,
+    covered: u32, tag: u32,
 ) -> VtexComposite {
     let met = covered & composite.live;
-    let paint = head & VTEX_CMD_INDEX_MASK;
+    let paint = tag & VTEX_CMD_INDEX_MASK;
     let first = met != 0u && composite.first == 0u;
     let second = met != 0u && !first && composite.second == 0u;
     let third = met != 0u && !first && !second;

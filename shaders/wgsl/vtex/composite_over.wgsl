@@ -24,17 +24,17 @@ fn vtex_composite_start(live: u32) -> VtexComposite {
 
 fn vtex_composite_draw(
     vt: VtexTexture, lookup: VtexLookup, composite: VtexComposite, samples: VtexSamples,
-    covered: u32, head: u32,
+    covered: u32, tag: u32,
 ) -> VtexComposite {
     var next = composite;
     if (covered & composite.live) != 0u {
-        let brush = vtex_brush(vt, lookup, head, samples.uv);
+        let brush = vtex_brush(vt, lookup, tag, samples.uv);
         if brush.encoded.a > 0.0 {
             next.count += 1u;
             next.only = brush.linear;
             next.color += (1.0 - composite.color.a) * brush.encoded;
             // An opaque image shows nothing, and hides nothing, outside its rectangle.
-            let ends = next.color.a >= 1.0 || (head & VTEX_CMD_OPAQUE_BIT) != 0u;
+            let ends = next.color.a >= 1.0 || (tag & VTEX_CMD_OPAQUE_BIT) != 0u;
             next.live = select(composite.live, 0u, ends);
         }
     }

@@ -35,13 +35,13 @@ fn vtex_composite_start(live: u32) -> VtexComposite {
 
 fn vtex_composite_draw(
     vt: VtexTexture, lookup: VtexLookup, composite: VtexComposite, samples: VtexSamples,
-    covered: u32, head: u32,
+    covered: u32, tag: u32,
 ) -> VtexComposite {
     let met = covered & composite.live;
     if met == 0u {
         return composite;
     }
-    let brush = vtex_brush(vt, lookup, head, vtex_samples_uv(samples, met));
+    let brush = vtex_brush(vt, lookup, tag, vtex_samples_uv(samples, met));
     var seen = composite.seen;
     if brush.encoded.a > 0.0 {
         seen.count += 1u;
@@ -51,7 +51,7 @@ fn vtex_composite_draw(
     var next = composite;
     let leads = (met & (~composite.live + 1u)) != 0u;
     // An opaque image shows nothing, and hides nothing, outside its rectangle.
-    let opaque = (head & VTEX_CMD_OPAQUE_BIT) != 0u && brush.encoded.a > 0.0;
+    let opaque = (tag & VTEX_CMD_OPAQUE_BIT) != 0u && brush.encoded.a > 0.0;
     if opaque || (leads && seen.color.a >= 1.0) {
         if met == composite.live {
             next.live = 0u;

@@ -76,10 +76,10 @@ fn vtex_groups(
     return vtex_resolved(vtex_color_decode_premultiplied(stack.color), same);
 }
 
-// Whether a control command with this last word is a branch or a jump.
-fn vtex_groups_is_branch(tail: u32) -> bool {
-    let op = tail & VTEX_CMD_CONTROL_MASK;
-    return (tail & VTEX_CMD_KIND_MASK) == VTEX_CMD_CURVES || op == VTEX_CMD_JUMP;
+// Whether a control command with this tag is a branch or a jump.
+fn vtex_groups_is_branch(tag: u32) -> bool {
+    let op = tag & VTEX_CMD_CONTROL_MASK;
+    return (tag & VTEX_CMD_KIND_MASK) == VTEX_CMD_CURVES || op == VTEX_CMD_JUMP;
 }
 
 // Whether the walk branches over what follows the control command.

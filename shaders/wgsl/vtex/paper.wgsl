@@ -59,8 +59,8 @@ fn vtex_paper(
                     entry += inner * vtex_brush(vt, lookup, command.w, lookup.uv).encoded;
                 }
                 if outer > inner {
-                    let head = vtex_outline_head(vt);
-                    entry += (outer - inner) * vtex_brush(vt, lookup, head, lookup.uv).encoded;
+                    let tag = vtex_outline_tag(vt);
+                    entry += (outer - inner) * vtex_brush(vt, lookup, tag, lookup.uv).encoded;
                 }
                 color += (1.0 - color.a) * entry;
             }

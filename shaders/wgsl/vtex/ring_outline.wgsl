@@ -16,5 +16,5 @@ fn vtex_ring(
     let control = (command.w & VTEX_CMD_CONTROL_BIT) != 0u;
     let rest = select(0u, composite.live & ~covered, msdf && !control && width > 0.0);
     let ring = vtex_msdf_covered(vt, samples, command.x, -width, rest);
-    return vtex_composite_draw(vt, lookup, composite, samples, ring, vtex_outline_head(vt));
+    return vtex_composite_draw(vt, lookup, composite, samples, ring, vtex_outline_tag(vt));
 }

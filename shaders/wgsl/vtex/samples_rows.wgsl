@@ -197,14 +197,14 @@ fn vtex_samples_wind(samples: VtexSamples, winding: VtexWinding, command: vec4u)
     return VtexWinding(low ^ vec4u(carry, next0, next1, next2), winding.high ^ next3);
 }
 
-// The samples that an entry with this last word covers.
-fn vtex_samples_filled(winding: VtexWinding, tail: u32) -> u32 {
+// The samples that an entry with this tag covers.
+fn vtex_samples_filled(winding: VtexWinding, tag: u32) -> u32 {
     // What the segments' windings are where all of it is none.
-    let none = 0u - bitcast<u32>(bitcast<i32>(tail << VTEX_CMD_BASE_LEFT) >> VTEX_CMD_BASE_RIGHT);
+    let none = 0u - bitcast<u32>(bitcast<i32>(tag << VTEX_CMD_BASE_LEFT) >> VTEX_CMD_BASE_RIGHT);
     let low = winding.low ^ (vec4u(0u) - ((vec4u(none) >> vec4u(0u, 1u, 2u, 3u)) & vec4u(1u)));
     let high = winding.high ^ (0u - ((none >> 4u) & 1u));
     let some = low.x | low.y | low.z | low.w | high;
-    return select(some, low.x, (tail & VTEX_CMD_EVEN_ODD_BIT) != 0u);
+    return select(some, low.x, (tag & VTEX_CMD_EVEN_ODD_BIT) != 0u);
 }
 
 // The mean of samples, in uv. From counts of bits: of odd rows, of rows with bit 1 and of rows with

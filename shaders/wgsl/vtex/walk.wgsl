@@ -7,13 +7,13 @@
 //!use vtex/edge
 //!use vtex/ring
 //!use vtex/composite
-// The walk over a cell's list, front to back: one loop over the commands, whatever entries they belong
-// to. Compilers that mask lanes instead of jumping pay for the longest walk of a group once here,
-// not once an entry.
+// The walk over a cell's list, front to back: one loop over the commands, whatever entries they
+// belong to. Compilers that mask lanes instead of jumping pay for the longest walk of a group once
+// here, not once an entry.
 //
 // All samples of one walk have met the same entries so far, so one colour stands for them. Those
-// that an opaque entry covers are done. At any other entry or branch the samples part: the walk goes
-// on with those that do as the first of them does, and another walk begins with the rest.
+// that an opaque entry covers are done. At any other entry or branch the samples part: the walk
+// goes on with those that do as the first of them does, and another walk begins with the rest.
 
 fn vtex_walk(
     vt: VtexTexture, lookup: VtexLookup, word: u32, samples: VtexSamples, live: u32,
@@ -42,7 +42,8 @@ fn vtex_walk(
             composite = vtex_composite_draw(vt, lookup, composite, samples, drawn, command.w);
             composite = vtex_ring(vt, lookup, composite, samples, drawn, command);
             var over = 0u;
-            // Textures without clips have no control commands here: there is nothing to ask the header.
+            // Textures without clips have no control commands here: there is nothing to ask the
+            // header.
             if control && (VTEX_KEY_FEATURES & VTEX_FEATURE_CLIPS) != 0u {
                 let inside = (command.w & VTEX_CMD_OPAQUE_BIT) != 0u;
                 let taken = select(~covered, covered, inside);

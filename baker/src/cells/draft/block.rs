@@ -7,7 +7,7 @@ use vtex_format::{BlendMode, MaskKind};
 
 use super::{
     clip::{self, Branch, Formula},
-    entry::{Draft, draft_run},
+    entry::{Draft, draft_ungrouped},
 };
 use crate::{
     cells::{
@@ -129,7 +129,7 @@ impl<'a> Drafting<'a, '_, '_> {
     /// may hold other nodes' items too; those are skipped.
     fn nodes(&mut self, nodes: &'a [Node], present: &[Present]) -> Vec<Block<'a>> {
         let mut blocks = Vec::new();
-        let mut run = Vec::new();
+        let mut ungrouped = Vec::new();
         let mut rest = present;
         while let Some((last, before)) = rest.split_last() {
             // The last node that begins at or before the item is the only one that can hold it.
@@ -137,11 +137,11 @@ impl<'a> Drafting<'a, '_, '_> {
             let node = nodes[..behind].last();
             match node.filter(|node| last.item < node.items()[1]) {
                 Some(Node::Item(_)) => {
-                    run.push(*last);
+                    ungrouped.push(*last);
                     rest = before;
                 }
                 Some(Node::Group(group)) => {
-                    if self.end_run(&mut run, &mut blocks) {
+                    if self.end_ungrouped(&mut ungrouped, &mut blocks) {
                         return blocks;
                     }
                     // The group owns a range of items, which is a suffix of what is left.
@@ -156,15 +156,15 @@ impl<'a> Drafting<'a, '_, '_> {
                 None => rest = before,
             }
         }
-        self.end_run(&mut run, &mut blocks);
+        self.end_ungrouped(&mut ungrouped, &mut blocks);
         blocks
     }
 
-    /// Adds the entries of `run`, items that no group comes between. Returns whether they hide the
-    /// rest.
-    fn end_run(&mut self, run: &mut Vec<Present>, blocks: &mut Vec<Block<'a>>) -> bool {
-        let items = std::mem::take(run);
-        let drafts = draft_run(self.input, items, self.cell, self.paints);
+    /// Adds the entries of `ungrouped`, items that no group comes between. Returns whether they
+    /// hide the rest.
+    fn end_ungrouped(&mut self, ungrouped: &mut Vec<Present>, blocks: &mut Vec<Block<'a>>) -> bool {
+        let items = std::mem::take(ungrouped);
+        let drafts = draft_ungrouped(self.input, items, self.cell, self.paints);
         blocks.extend(drafts.into_iter().map(Block::Entry));
         blocks.last().is_some_and(|block| block.hides(self.paints))
     }

@@ -29,8 +29,8 @@ pub(super) struct Branch<'a> {
     pub(super) outline: CurvesDraft<'a>,
     /// Whether it is taken inside, instead of outside.
     pub(super) taken_inside: bool,
-    /// Index of the branch that they continue with. The number of branches stands for the group's body,
-    /// `None` for the end of the group.
+    /// Index of the branch that they continue with. The number of branches stands for the group's
+    /// body, `None` for the end of the group.
     pub(super) to: Option<usize>,
 }
 
@@ -144,7 +144,8 @@ impl<'a> Code<'a> {
         }
     }
 
-    /// As [`Self::branch_if`], for formulas of which the first that is `decisive` decides the whole.
+    /// As [`Self::branch_if`], for formulas of which the first that is `decisive` decides the
+    /// whole.
     fn chain(&mut self, mut formulas: Vec<Formula<'a>>, decisive: bool, value: bool, to: Label) {
         // Every member may decide on its own, so each branches to the target directly.
         if decisive == value {

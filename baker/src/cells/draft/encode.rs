@@ -117,8 +117,8 @@ impl<'p> ListEncoder<'p> {
         Ok(())
     }
 
-    /// Branches, then masks, then the body. Offsets of branches count the entries that they skip: to the
-    /// next branch they continue with, or to the group's end.
+    /// Branches, then masks, then the body. Offsets of branches count the entries that they skip:
+    /// to the next branch they continue with, or to the group's end.
     fn group(&mut self, group: &GroupDraft<'_>, entries: &mut Vec<Entry>) -> Result<(), BakeError> {
         // Absolute places first; offsets are counted from the entry after the branch.
         let end = entries.len() + Block::group_entry_count(group);

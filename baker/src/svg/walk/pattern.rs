@@ -24,11 +24,12 @@ use crate::{
 const MAX_ELEMENTS: f64 = 262_144.0;
 /// Most tiles that are walked one by one, where copies cannot share an outline.
 const MAX_WALKED_TILES: f64 = 4096.0;
-/// Levels of the blend stack that a pattern takes: the clip to the shape, its opacity, the clip to the tile.
+/// Levels of the blend stack that a pattern takes: the clip to the shape, its opacity, the clip to
+/// the tile.
 const BLEND_LEVELS: u32 = 5;
 /// Levels of patterns inside a pattern that are expanded.
 const LEVELS: u32 = 1;
-/// How far content may reach beyond its tile without being clipped to it, as a share of the tile.
+/// How far content may extend beyond its tile without being clipped to it, as a share of the tile.
 const OVERHANG: f64 = 1e-6;
 
 /// The tiles that may show: a range of columns and of rows, counted from the tile at the origin.

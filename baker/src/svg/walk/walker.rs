@@ -15,12 +15,12 @@ use crate::{
     warning::Warnings,
 };
 
-/// How far a shape may reach, in canvases. usvg's coordinates are f32: further out neighbouring
+/// How far a shape may extend, in canvases. usvg's coordinates are f32: further out neighbouring
 /// ones are a sixteenth of a canvas or more apart. A rectangle of that size may still be meant as
 /// an endless background, but the arcs of a circle are noise there, and there can be millions of
 /// them.
-const MAX_REACH: f64 = 1_048_576.0;
-/// Most path elements of a shape that reaches further.
+const MAX_EXTENT: f64 = 1_048_576.0;
+/// Most path elements of a shape that extends further.
 const MAX_FAR_ELEMENTS: usize = 256;
 /// Most path elements of all outlines together, with strokes expanded. Later stages hold several
 /// copies of each.
@@ -89,11 +89,11 @@ impl<'a> Place<'a> {
 }
 
 impl<'a> Walker<'a, '_> {
-    /// Whether a shape reaches so far that it must be left out. Warns about it.
+    /// Whether a shape extends so far that it must be left out. Warns about it.
     pub(super) fn is_too_far(&self, outline: &BezPath, element: &str) -> bool {
         let bounds = outline.control_box();
-        let reach = MAX_REACH * self.quality.canvas_longer_side;
-        let far = bounds.abs().width().max(bounds.abs().height()) > reach;
+        let max_extent = MAX_EXTENT * self.quality.canvas_longer_side;
+        let far = bounds.abs().width().max(bounds.abs().height()) > max_extent;
         let left_out = far && outline.elements().len() > MAX_FAR_ELEMENTS;
         if left_out {
             let message = "a shape reaches too far beyond the canvas and is left out";

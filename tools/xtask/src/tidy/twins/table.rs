@@ -70,7 +70,7 @@ pub(super) const ONLY_RUST: &[(&str, &[&str], &str)] = &[
 pub(super) const ONLY_WGSL: &[(&str, &str)] = &[
     ("vtex_resolved_count", "one expression of Resolved::of"),
     (
-        "vtex_outline_head",
+        "vtex_outline_tag",
         "settings.rs reads it once for all lookups",
     ),
     (
