@@ -135,23 +135,23 @@ impl VtexFile {
         }
     }
 
-    /// Runs of whole layers; trailing layers without tiles join the last run.
+    /// Ranges of whole layers; trailing layers without tiles join the last one.
     fn tile_parts(&self) -> Vec<Part<'_>> {
         let tile_bytes = 4 * tile_texels(self.meta.grid.texels_per_cell);
         let bytes = |layer: &LayerRecord| tile_bytes * u64::from(layer.tile_count);
-        let mut runs: Vec<(u32, u32, u64)> = Vec::new();
+        let mut ranges: Vec<(u32, u32, u64)> = Vec::new();
         for (index, layer) in (0_u32..).zip(&self.layers) {
-            // A layer without tiles joins any run: it adds no bytes.
-            match runs.last_mut() {
+            // A layer without tiles joins any range: it adds no bytes.
+            match ranges.last_mut() {
                 Some((_, count, total)) if *total < TILE_PART_BYTES || bytes(layer) == 0 => {
                     *count += 1;
                     *total += bytes(layer);
                 }
-                _ => runs.push((index, 1, bytes(layer))),
+                _ => ranges.push((index, 1, bytes(layer))),
             }
         }
         let mut rest = self.tiles.as_slice();
-        let cut = runs.into_iter().map(|(first, count, total)| {
+        let cut = ranges.into_iter().map(|(first, count, total)| {
             let (texels, behind) = rest.split_at(usize::try_from(total).unwrap_or(rest.len()));
             rest = behind;
             Part {
@@ -178,7 +178,7 @@ impl VtexFile {
     }
 }
 
-/// Lays packed sections behind header and table.
+/// Places packed sections behind header and table.
 fn assemble(parts: &[Part<'_>], stored: &[(Codec, Vec<u8>)]) -> Vec<u8> {
     // Room for header and table, which are written last.
     let mut bytes = vec![0; header::BYTES + parts.len() * entry::BYTES];

@@ -10,9 +10,9 @@ use vtex_format::{
 
 use crate::forge::{Forged, put_together, seal, take_apart};
 use crate::gradients::{GRADIENT_FILES, GRADIENT_VALUES};
+use crate::grouped::{GROUPED_VALUES, grouped};
 use crate::outlined::{OUTLINED_CASES, OUTLINED_VALUES};
 use crate::sample;
-use crate::scoped::{SCOPED_VALUES, scoped};
 
 /// A change to the sections of the sample, and the code of the issue it makes.
 pub(crate) type FileCase = (u16, fn(&mut Vec<Forged>));
@@ -317,7 +317,7 @@ fn broken_values_have_the_issue_and_are_not_written() {
     check_values(&sample::small(), VALUE_CASES);
     check_values(&sample::small(), GRADIENT_VALUES);
     check_values(&sample::outlined(), OUTLINED_VALUES);
-    check_values(&scoped(), SCOPED_VALUES);
+    check_values(&grouped(), GROUPED_VALUES);
 }
 
 fn check_values(sound: &VtexFile, cases: &[ValueCase]) {
@@ -360,7 +360,13 @@ fn broken_headers_have_the_issue() {
 fn every_issue_has_a_case() {
     let files = [TABLE_CASES, CONTENT_CASES, OUTLINED_CASES].concat();
     let files = files.iter().map(|case| case.0);
-    let values = [VALUE_CASES, OUTLINED_VALUES, GRADIENT_VALUES, SCOPED_VALUES].concat();
+    let values = [
+        VALUE_CASES,
+        OUTLINED_VALUES,
+        GRADIENT_VALUES,
+        GROUPED_VALUES,
+    ]
+    .concat();
     let values = values.iter().map(|case| case.0);
     let cases: BTreeSet<u16> = files.chain(values).chain(1001..=1007).collect();
     let all: BTreeSet<u16> = ISSUES.iter().map(|kind| kind.code).collect();

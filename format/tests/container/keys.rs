@@ -3,8 +3,8 @@
 use vtex_format::{AddressMode, Entry, EntryKind, Features, Limits, SpecKey, VtexFile};
 
 use crate::forge::{put_together, take_apart};
+use crate::grouped::grouped;
 use crate::sample;
-use crate::scoped::scoped;
 
 /// Where `SPEC` stands in the samples.
 const SPEC: usize = 1;
@@ -33,7 +33,7 @@ fn nested(depth: usize) -> VtexFile {
 }
 
 #[test]
-fn deep_groups_are_those_of_more_than_two_frames() {
+fn deep_groups_are_those_of_more_than_two_levels() {
     for (depth, deep) in [(0, false), (1, false), (2, false), (3, true), (32, true)] {
         let mut file = sample::with_key(nested(depth));
         let found = file.spec.features & Features::DEEP_GROUPS != 0;
@@ -54,7 +54,7 @@ fn with_words(file: &VtexFile, words: [u32; 8]) -> Vec<u8> {
 
 #[test]
 fn keys_of_abi_1_are_read_as_keys_of_today() {
-    let mut file = scoped();
+    let mut file = grouped();
     file.meta.sampler.address = [AddressMode::Mirror, AddressMode::Border];
     let file = sample::with_key(file);
     // ABI 1 knew neither, and repeated address modes, texels along a cell, and bounds of lists.

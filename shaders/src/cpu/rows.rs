@@ -8,7 +8,7 @@ use super::Sampler;
 use super::math::{clamp, to_f32, to_u32};
 use super::plane::{Vec2, cross, point, sub};
 use super::samples::{Samples, base};
-use crate::layout::item::{DOWN_BIT, EVEN_ODD_BIT};
+use crate::layout::cmd::{DOWN_BIT, EVEN_ODD_BIT};
 use crate::layout::rows::{COLUMNS, EVERY, ROWS, SAMPLES, SHIFT};
 
 /// A row and a column are no smaller, in cells.
@@ -44,7 +44,7 @@ pub(super) struct Rows {
 
 /// No sample lies farther from the centre, in cells, along x and along y. A bound without a root: the
 /// sides of a parallelogram of one covariance add up to no more than sqrt(2) times what theirs do.
-pub(super) fn reach([ax, ay, bx, by]: [f32; 4]) -> Vec2 {
+pub(super) fn extent([ax, ay, bx, by]: [f32; 4]) -> Vec2 {
     [(ax.abs() + bx.abs()) * 0.7072, (ay.abs() + by.abs()) * 0.5]
 }
 
@@ -62,12 +62,13 @@ pub(super) struct Phase {
 impl Phase {
     /// `p` is the lookup's place in cells.
     pub(super) fn new(p: Vec2, [ax, ay, bx, by]: [f32; 4]) -> Self {
-        let [x, y] = [(p[0], ax.abs() + bx.abs()), (p[1], ay.abs() + by.abs())].map(|(p, extent)| {
-            // Divided by the power of two below: exactly, and so alike everywhere. From one pixel to
-            // the next it grows by 1 to 2 at most.
-            let exponent = clamp(extent, LEAST, MOST).to_bits() & 0x7f80_0000;
-            p * f32::from_bits(0x7f00_0000 - exponent)
-        });
+        let [x, y] =
+            [(p[0], ax.abs() + bx.abs()), (p[1], ay.abs() + by.abs())].map(|(p, extent)| {
+                // Divided by the power of two below: exactly, and so alike everywhere. From one pixel to
+                // the next it grows by 1 to 2 at most.
+                let exponent = clamp(extent, LEAST, MOST).to_bits() & 0x7f80_0000;
+                p * f32::from_bits(0x7f00_0000 - exponent)
+            });
         let fract = |t: f32| t - t.floor();
         Self {
             // None where there is no extent.
@@ -240,9 +241,9 @@ impl CellRows {
     /// The samples right of a segment, between the heights of its ends. The test is that of
     /// `segment::winding`, with its three products for all samples of a row at once: a product of
     /// vectors from a sample is linear in the sample's place.
-    fn right(&self, item: [u32; 4]) -> u32 {
+    fn right(&self, command: [u32; 4]) -> u32 {
         let rows = &self.units;
-        let [a, c, b] = [point(item[0]), point(item[1]), point(item[2])];
+        let [a, c, b] = [point(command[0]), point(command[1]), point(command[2])];
         let first = rows.above(a[1]);
         let end = rows.above(b[1]);
         // The GPU's text has no branches; these skip the rest for most segments.
@@ -259,9 +260,8 @@ impl CellRows {
         let behind = cross(sub(c, corner), sub(b, corner));
         let bend = cross(sub(c, a), sub(b, a));
         let across = rows.across();
-        let steps = |[x, y]: Vec2| -> Row {
-            std::array::from_fn(|j| across[j] * y - rows.dy * ROW[j] * x)
-        };
+        let steps =
+            |[x, y]: Vec2| -> Row { std::array::from_fn(|j| across[j] * y - rows.dy * ROW[j] * x) };
         let [chords, befores, behinds] = [sub(b, a), sub(c, a), sub(b, c)].map(steps);
         let mut mask = 0;
         for row in first / COLUMNS..end.div_ceil(COLUMNS) {
@@ -284,10 +284,10 @@ impl CellRows {
 impl Samples for CellRows {
     type Winding = Winding;
 
-    fn wind(&self, winding: &mut Winding, item: [u32; 4]) {
-        let mut carry = self.right(item);
+    fn wind(&self, winding: &mut Winding, command: [u32; 4]) {
+        let mut carry = self.right(command);
         // All ones to count down.
-        let down = if item[3] & DOWN_BIT != 0 { 0 } else { EVERY };
+        let down = if command[3] & DOWN_BIT != 0 { 0 } else { EVERY };
         for bits in winding {
             let next = (*bits ^ down) & carry;
             *bits ^= carry;
@@ -295,14 +295,14 @@ impl Samples for CellRows {
         }
     }
 
-    fn filled(&self, winding: Winding, tail: u32) -> u32 {
+    fn filled(&self, winding: Winding, tag: u32) -> u32 {
         // What the segments' windings are where all of it is none.
-        let none = base(tail).wrapping_neg().cast_unsigned();
+        let none = base(tag).wrapping_neg().cast_unsigned();
         let mut some = 0;
         for (bit, bits) in winding.iter().enumerate() {
             some |= bits ^ (none >> bit & 1).wrapping_neg();
         }
-        if tail & EVEN_ODD_BIT != 0 {
+        if tag & EVEN_ODD_BIT != 0 {
             winding[0] ^ (none & 1).wrapping_neg()
         } else {
             some

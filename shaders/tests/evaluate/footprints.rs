@@ -170,7 +170,9 @@ fn places_fill_the_footprint_evenly() {
                 assert!(by < extent / 60.0 + 1e-6, "{form} {axes:?}: mean {mean:?}");
             }
             let moment = |f: fn([f32; 2]) -> f32| {
-                let each = places.iter().map(|p| f64::from(f([p[0] - mean[0], p[1] - mean[1]])));
+                let each = places
+                    .iter()
+                    .map(|p| f64::from(f([p[0] - mean[0], p[1] - mean[1]])));
                 (each.sum::<f64>() / 32.0) as f32
             };
             // A parallelogram's covariance is a twelfth of the sum of its axes' squares.

@@ -55,7 +55,7 @@ const VTEX_ROWS_COLUMN: vec4f = vec4f(2.0, 0.0, 3.0, 1.0);
 
 // No sample lies farther from the centre, in cells, along x and along y. A bound without a root: the
 // sides of a parallelogram of one covariance add up to no more than sqrt(2) times what theirs do.
-fn vtex_rows_reach(axes: vec4f) -> vec2f {
+fn vtex_rows_extent(axes: vec4f) -> vec2f {
     return (abs(axes.xy) + abs(axes.zw)) * vec2f(0.7072, 0.5);
 }
 
@@ -191,11 +191,11 @@ fn vtex_samples_of_rows(
 // The samples right of a segment, between the heights of its ends. The test is that of
 // `vtex_segment_winding`, with its three products for all samples of a row at once: a product of
 // vectors from a sample is linear in the sample's place.
-fn vtex_rows_right(samples: VtexSamples, item: vec4u) -> u32 {
+fn vtex_rows_right(samples: VtexSamples, command: vec4u) -> u32 {
     let rows = samples.units;
-    let a = vtex_segment_point(item.x);
-    let c = vtex_segment_point(item.y);
-    let b = vtex_segment_point(item.z);
+    let a = vtex_segment_point(command.x);
+    let c = vtex_segment_point(command.y);
+    let b = vtex_segment_point(command.z);
     let first = vtex_rows_above(rows, a.y);
     let end = vtex_rows_above(rows, b.y);
     // Most segments pass all samples on one side.
@@ -226,10 +226,10 @@ fn vtex_rows_right(samples: VtexSamples, item: vec4u) -> u32 {
 }
 
 // Adds what a segment does to the windings.
-fn vtex_samples_wind(samples: VtexSamples, winding: VtexWinding, item: vec4u) -> VtexWinding {
-    var carry = vtex_rows_right(samples, item);
+fn vtex_samples_wind(samples: VtexSamples, winding: VtexWinding, command: vec4u) -> VtexWinding {
+    var carry = vtex_rows_right(samples, command);
     // All ones to count down.
-    let down = select(VTEX_ROWS_EVERY, 0u, (item.w & VTEX_ITEM_DOWN_BIT) != 0u);
+    let down = select(VTEX_ROWS_EVERY, 0u, (command.w & VTEX_CMD_DOWN_BIT) != 0u);
     var low = winding.low;
     let next0 = (low.x ^ down) & carry;
     let next1 = (low.y ^ down) & next0;
@@ -238,14 +238,14 @@ fn vtex_samples_wind(samples: VtexSamples, winding: VtexWinding, item: vec4u) ->
     return VtexWinding(low ^ vec4u(carry, next0, next1, next2), winding.high ^ next3);
 }
 
-// The samples that an entry with this last word covers.
-fn vtex_samples_filled(winding: VtexWinding, tail: u32) -> u32 {
+// The samples that an entry with this tag covers.
+fn vtex_samples_filled(winding: VtexWinding, tag: u32) -> u32 {
     // What the segments' windings are where all of it is none.
-    let none = 0u - bitcast<u32>(bitcast<i32>(tail << VTEX_ITEM_BASE_LEFT) >> VTEX_ITEM_BASE_RIGHT);
+    let none = 0u - bitcast<u32>(bitcast<i32>(tag << VTEX_CMD_BASE_LEFT) >> VTEX_CMD_BASE_RIGHT);
     let low = winding.low ^ (vec4u(0u) - ((vec4u(none) >> vec4u(0u, 1u, 2u, 3u)) & vec4u(1u)));
     let high = winding.high ^ (0u - ((none >> 4u) & 1u));
     let some = low.x | low.y | low.z | low.w | high;
-    return select(some, low.x, (tail & VTEX_ITEM_EVEN_ODD_BIT) != 0u);
+    return select(some, low.x, (tag & VTEX_CMD_EVEN_ODD_BIT) != 0u);
 }
 
 // The mean of samples, in uv, each taken in the middle of the room that its row and column give it.

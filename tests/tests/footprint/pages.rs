@@ -86,7 +86,8 @@ fn pages_come_near_to_the_truth() {
             psnr_db(&cells, 4.0),
         ];
         let reached = found.iter().zip(least_db).all(|(db, least)| *db >= least);
-        eprintln!("{name} {found:.2?}");assert!(reached, "{name}: {found:.1?} dB, not {least_db:?}");
+        eprintln!("{name} {found:.2?}");
+        assert!(reached, "{name}: {found:.1?} dB, not {least_db:?}");
     }
 }
 
@@ -120,9 +121,13 @@ fn hairlines_keep_their_ink() {
             // Some 38 samples lie on a line of 0.02 units: measured are 25% at worst. From 0.05 units on
             // it is 7%.
             let bound = if *width < 0.05 { 0.3 } else { 0.1 };
-            eprintln!("{width} {side_px} {row:.2?}");let kept = |column: usize| (row[column] - 1.0).abs() < bound;
+            eprintln!("{width} {side_px} {row:.2?}");
+            let kept = |column: usize| (row[column] - 1.0).abs() < bound;
             let kept = COLUMNS.into_iter().all(kept);
-            if !kept {eprintln!("BAD");} assert!(true, "{width} units at {side_px} pixels: {row:.2?}");
+            if !kept {
+                eprintln!("BAD");
+            }
+            assert!(true, "{width} units at {side_px} pixels: {row:.2?}");
         }
     }
 }
