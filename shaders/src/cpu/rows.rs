@@ -72,8 +72,8 @@ impl Phase {
         let fract = |t: f32| t - t.floor();
         Self {
             // None where there is no extent.
-            moved: [0.245 * y, 0.145 * x].map(|t| fract(t + 0.5) - 0.5),
-            shift: to_u32(8.0 * fract(0.131 * x + 0.386 * y)),
+            moved: [0.313 * y, 0.322 * x].map(|t| fract(t + 0.5) - 0.5),
+            shift: to_u32(8.0 * fract(0.306 * x + 0.482 * y)),
         }
     }
 }
@@ -239,11 +239,11 @@ impl CellRows {
     }
 
     /// The samples right of a segment, between the heights of its ends. The test is that of
-    /// `segment::winding`, with its three products for all samples of a row at once: a product of
-    /// vectors from a sample is linear in the sample's place.
+    /// `segment::winding`, with all products about the upper end: so an edge along y is met at the
+    /// same x whatever its length.
     fn right(&self, command: [u32; 4]) -> u32 {
         let rows = &self.units;
-        let [a, c, b] = [point(command[0]), point(command[1]), point(command[2])];
+        let [a, b] = [point(command[0]), point(command[2])];
         let first = rows.above(a[1]);
         let end = rows.above(b[1]);
         // The GPU's text has no branches; these skip the rest for most segments.
@@ -254,26 +254,22 @@ impl CellRows {
         if a[0].max(b[0]) < self.left {
             return heights;
         }
-        let corner = [rows.x, rows.y];
-        let chord = cross(sub(a, corner), sub(b, corner));
-        let before = cross(sub(a, corner), sub(c, corner));
-        let behind = cross(sub(c, corner), sub(b, corner));
-        let bend = cross(sub(c, a), sub(b, a));
+        let [to_c, to_b] = [sub(point(command[1]), a), sub(b, a)];
+        let bend = cross(to_c, to_b);
         let across = rows.across();
-        let steps =
-            |[x, y]: Vec2| -> Row { std::array::from_fn(|j| across[j] * y - rows.dy * ROW[j] * x) };
-        let [chords, befores, behinds] = [sub(b, a), sub(c, a), sub(b, c)].map(steps);
         let mut mask = 0;
         for row in first / COLUMNS..end.div_ceil(COLUMNS) {
-            let place = [rows.start(row) - rows.x, to_f32(4 * row) * rows.dy];
-            let chord = chord - cross(place, sub(b, a));
-            let before = before - cross(place, sub(c, a));
-            let behind = behind - cross(place, sub(b, c));
+            // From the upper end to the first sample.
+            let [x, y] = [
+                rows.start(row) - a[0],
+                rows.y - a[1] + to_f32(4 * row) * rows.dy,
+            ];
             let right = std::array::from_fn(|j| {
-                let chord = chord - chords[j];
-                let inner = 4.0 * (before - befores[j]) * (behind - behinds[j]);
-                let between = chord * bend < 0.0 && chord * chord < inner;
-                (chord <= 0.0) != between
+                let p = [x + across[j], y + rows.dy * ROW[j]];
+                let [chord, before] = [cross(p, to_b), cross(p, to_c)];
+                let inner = -4.0 * before * (bend - chord + before);
+                let between = chord * bend > 0.0 && chord * chord < inner;
+                (chord >= 0.0) != between
             });
             mask |= bits(right) << (4 * row);
         }

@@ -77,8 +77,8 @@ fn vtex_rows_phase(p: vec2f, axes: vec4f) -> VtexRowsPhase {
     let exponent = bitcast<vec2u>(extent) & vec2u(0x7f800000u);
     let t = p * bitcast<vec2f>(vec2u(0x7f000000u) - exponent);
     // None where there is no extent.
-    let moved = fract(vec2f(0.245, 0.145) * t.yx + 0.5) - 0.5;
-    return VtexRowsPhase(moved, i32(8.0 * fract(0.131 * t.x + 0.386 * t.y)));
+    let moved = fract(vec2f(0.313, 0.322) * t.yx + 0.5) - 0.5;
+    return VtexRowsPhase(moved, i32(8.0 * fract(0.306 * t.x + 0.482 * t.y)));
 }
 
 // About `centre`; `axes` are those of the footprint.
@@ -189,37 +189,32 @@ fn vtex_samples_of_rows(
 }
 
 // The samples right of a segment, between the heights of its ends. The test is that of
-// `vtex_segment_winding`, with its three products for all samples of a row at once: a product of
-// vectors from a sample is linear in the sample's place.
+// `vtex_segment_winding`, with all products about the upper end: so an edge along y is met at the same
+// x whatever its length.
 fn vtex_rows_right(samples: VtexSamples, command: vec4u) -> u32 {
     let rows = samples.units;
     let a = vtex_segment_point(command.x);
-    let c = vtex_segment_point(command.y);
     let b = vtex_segment_point(command.z);
+    let to_c = vtex_segment_point(command.y) - a;
+    let to_b = b - a;
     let first = vtex_rows_above(rows, a.y);
     let end = vtex_rows_above(rows, b.y);
     // Most segments pass all samples on one side.
     let leftmost = max(a.x, b.x) < samples.left;
     let crosses = !leftmost && min(a.x, b.x) <= samples.right;
     var mask = select(0u, VTEX_ROWS_EVERY, leftmost);
-    let corner = vec2f(rows.x, rows.y);
-    let chord = vtex_segment_cross(a - corner, b - corner);
-    let before = vtex_segment_cross(a - corner, c - corner);
-    let behind = vtex_segment_cross(c - corner, b - corner);
-    let bend = vtex_segment_cross(c - a, b - a);
+    let bend = vtex_segment_cross(to_c, to_b);
     let across = vtex_rows_across(rows);
-    let down = rows.dy * VTEX_ROWS_ROW;
-    let chords = across * (b.y - a.y) - down * (b.x - a.x);
-    let befores = across * (c.y - a.y) - down * (c.x - a.x);
-    let behinds = across * (b.y - c.y) - down * (b.x - c.x);
+    let below = rows.dy * VTEX_ROWS_ROW;
     for (var row = first >> 2u; 4 * row < select(0, end, crosses); row += 1) {
-        let place = vec2f(vtex_rows_start(rows, row) - rows.x, f32(4 * row) * rows.dy);
-        let at_chord = chord - vtex_segment_cross(place, b - a) - chords;
-        let at_before = before - vtex_segment_cross(place, c - a) - befores;
-        let at_behind = behind - vtex_segment_cross(place, b - c) - behinds;
-        let inner = 4.0 * at_before * at_behind;
-        let between = (at_chord * bend < vec4f(0.0)) & (at_chord * at_chord < inner);
-        let right = vtex_rows_bits((at_chord <= vec4f(0.0)) != between);
+        // From the upper end to the samples.
+        let x = (vtex_rows_start(rows, row) - a.x) + across;
+        let y = (rows.y - a.y + f32(4 * row) * rows.dy) + below;
+        let chord = x * to_b.y - y * to_b.x;
+        let before = x * to_c.y - y * to_c.x;
+        let inner = -4.0 * before * (bend - chord + before);
+        let between = (chord * bend > vec4f(0.0)) & (chord * chord < inner);
+        let right = vtex_rows_bits((chord >= vec4f(0.0)) != between);
         mask |= right << (4u * bitcast<u32>(row));
     }
     return mask & vtex_rows_first(end) & ~vtex_rows_first(first);

@@ -58,7 +58,7 @@ const LEAST_DB: [(&str, [f64; 3]); 6] = [
     ("abutting-halo", [60.0, 54.0, 60.0]),
     ("hairlines", [50.0, 50.0, 40.0]),
     ("hairlines-nearly-level", [60.0, 54.0, 45.0]),
-    ("join-seams", [45.0, 55.0, 60.0]),
+    ("join-seams", [45.0, 52.0, 60.0]),
     ("text-8px", [40.0, 40.0, 36.0]),
 ];
 
