@@ -82,8 +82,7 @@ fn average(
         if pass.beyond {
             live &= !mask;
         } else {
-            let Canvas { rows, home, .. } = &canvas;
-            let samples = CellRows::new(sampler, rows, *home, pass.cell, canvas.centre);
+            let samples = CellRows::new(sampler, lookup, &canvas.rows, pass.cell, canvas.centre);
             let resolved = lists(sampler, lookup, pass.word, &samples, mask, observer);
             sum = std::array::from_fn(|i| sum[i] + resolved.sum[i]);
             count += to_f32(resolved.done.count_ones());

@@ -4,10 +4,10 @@
 //! j of row k. Its first axis is horizontal. The samples go down evenly from one to the next, so those
 //! between two heights are a range of bits; and no two have the same x.
 
-use super::Sampler;
 use super::math::{clamp, to_f32, to_u32};
 use super::plane::{Vec2, cross, point, sub};
 use super::samples::{Samples, base};
+use super::{Lookup, Sampler};
 use crate::layout::cmd::{DOWN_BIT, EVEN_ODD_BIT};
 use crate::layout::rows::{COLUMNS, EVERY, ROWS, SAMPLES, SHIFT};
 
@@ -201,7 +201,7 @@ pub(super) struct CellRows {
     rows: Rows,
     /// From that corner to this cell's.
     cell: Vec2,
-    /// That corner in uv, and the uv of a cell.
+    /// The lookup's place, and the extent of a cell, in uv.
     uv: [Vec2; 2],
     /// In units of this cell's box.
     units: Rows,
@@ -213,11 +213,12 @@ pub(super) struct CellRows {
 }
 
 impl CellRows {
-    /// `home` is the corner of the centre's cell, `cell` from there to this one's, both in cells.
+    /// `cell` is the corner of this cell and `centre` the lookup's place, both from the corner of the
+    /// cell that it lies in, in cells.
     pub(super) fn new(
         sampler: &Sampler<'_>,
+        lookup: &Lookup,
         rows: &Rows,
-        home: Vec2,
         cell: Vec2,
         centre: Vec2,
     ) -> Self {
@@ -227,10 +228,7 @@ impl CellRows {
         Self {
             rows: *rows,
             cell,
-            uv: [
-                [0, 1].map(|i| (home[i] - s.offset[i]) / s.scale[i]),
-                s.scale.map(|scale| 1.0 / scale),
-            ],
+            uv: [lookup.uv, s.scale.map(|scale| 1.0 / scale)],
             units: scaled,
             left: scaled.x + (7.75 * scaled.dx).min(0.0),
             right: scaled.x + (7.75 * scaled.dx).max(0.0) + 4.0 * scaled.pitch,
@@ -307,8 +305,8 @@ impl Samples for CellRows {
 
     fn uv(&self, mask: u32) -> Vec2 {
         let mean = self.rows.mean(mask);
-        let [home, per_cell] = self.uv;
-        [0, 1].map(|i| home[i] + (self.cell[i] + self.centre[i] + mean[i]) * per_cell[i])
+        let [uv, per_cell] = self.uv;
+        [0, 1].map(|i| uv[i] + mean[i] * per_cell[i])
     }
 
     fn q(&self, index: u32) -> Vec2 {

@@ -56,7 +56,7 @@ fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
         // Rounding must not leave out the one that the pass is for.
         var mask = (vtex_rows_within(rows, low, high) | own) & live;
         mask = select(mask, live, whole);
-        let samples = vtex_samples_of_rows(vt, rows, home, cell, centre);
+        let samples = vtex_samples_of_rows(vt, lookup, rows, cell, centre);
         let resolved = vtex_lists(vt, lookup, select(word, VTEX_CELL_EMPTY, beyond), samples, mask);
         let done = select(resolved.done, mask, beyond);
         sum += resolved.sum;

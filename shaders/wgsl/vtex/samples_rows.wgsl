@@ -1,5 +1,6 @@
 //!use core/layout
 //!use vtex/texture
+//!use vtex/lookup
 //!use vtex/segment
 // The samples of a footprint, as seen from one cell of the file; a walk speaks of samples as bits of
 // a mask. A footprint's parallelogram has eight rows of four samples, and bit i = 4 k + j of a mask is
@@ -25,8 +26,8 @@ struct VtexSamples {
     rows: VtexRows,
     // From that corner to this cell's.
     cell: vec2f,
-    // That corner in uv, and the uv of a cell.
-    home_uv: vec2f,
+    // The lookup's place, and the extent of a cell, in uv.
+    uv: vec2f,
     uv_per_cell: vec2f,
     // In units of this cell's box.
     units: VtexRows,
@@ -170,16 +171,17 @@ fn vtex_rows_count(mask: u32, bits: u32) -> f32 {
     return f32(bitcast<i32>(countOneBits(mask & bits)));
 }
 
-// `home` is the corner of the centre's cell, `cell` from there to this one's, both in cells.
+// `cell` is the corner of this cell and `centre` the lookup's place, both from the corner of the cell
+// that it lies in, in cells.
 fn vtex_samples_of_rows(
-    vt: VtexTexture, rows: VtexRows, home: vec2f, cell: vec2f, centre: vec2f,
+    vt: VtexTexture, lookup: VtexLookup, rows: VtexRows, cell: vec2f, centre: vec2f,
 ) -> VtexSamples {
     let units = vt.curve_units.x;
     let scaled = vtex_rows_scaled(rows, units, vt.curve_units.y - cell * units);
     return VtexSamples(
         rows,
         cell,
-        (home - vt.cell_from_uv.zw) / vt.cell_from_uv.xy,
+        lookup.uv,
         1.0 / vt.cell_from_uv.xy,
         scaled,
         scaled.x + min(7.75 * scaled.dx, 0.0),
@@ -257,11 +259,11 @@ fn vtex_samples_uv(samples: VtexSamples, mask: u32) -> vec2f {
     // From the mean of all.
     let down = (row + 0.25 * place) * per_whole - 3.875;
     let across = column * per_whole - 1.5;
-    let mean = samples.cell + samples.centre + vec2f(
+    let mean = vec2f(
         down * rows.dx + across * rows.pitch,
         down * f32(VTEX_ROWS_COLUMNS) * rows.dy,
     );
-    return samples.home_uv + mean * samples.uv_per_cell;
+    return samples.uv + mean * samples.uv_per_cell;
 }
 
 fn vtex_samples_q(samples: VtexSamples, index: u32) -> vec2f {
