@@ -13,3 +13,4 @@ mod outlined;
 mod roundtrip;
 mod sample;
 mod scoped;
+mod versions;
