@@ -168,7 +168,7 @@ issue_table! {
     CURVE_LATTICE_USE = 3023 Malformed "there is a curve lattice without curve records, or records without a lattice";
     OUTLINE_SOLID = 3024 Malformed "the distance outline's paint is not a single colour";
     SPEC_LENGTH = 3030 Malformed "SPEC is not 32 bytes";
-    SPEC_ABI = 3031 Unsupported "the spec key is of a later ABI";
+    SPEC_ABI = 3031 Unsupported "the ABI of the spec key is not known";
     SPEC_FEATURES = 3032 Unsupported "the spec key has unknown features";
     SPEC_FEATURE_MISSING = 3033 Malformed "the spec key lacks a feature that the content needs";
     SPEC_FEATURE_STRAY = 3034 Malformed "the spec key has a feature that META rules out";

@@ -16,7 +16,7 @@ use crate::container::section::SectionInfo;
 use crate::container::tag::Tag;
 use crate::container::words::words_from_little_endian;
 use crate::curves::outlines::{OutlineError, StoredOutlines, stream};
-use crate::file::spec::{SHADER_ABI, SpecKey};
+use crate::file::spec::{OLDEST_ABI, SHADER_ABI, SpecKey};
 use crate::file::texture::VtexFile;
 use crate::records::image::{Image, ImageRecord};
 use crate::records::layer::LayerRecord;
@@ -55,7 +55,7 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
     // Lengths of the rest hang on these settings.
     let meta = loader.meta()?;
     // No `?` before all have been tried: `validate` lists the issues of every section.
-    let spec = loader.spec(&meta);
+    let spec = loader.spec();
     let provenance = loader.provenance();
     let paints = loader.records(Tag::PANT);
     let gradients = loader.records(Tag::GRAD);
@@ -232,14 +232,13 @@ impl Loader<'_> {
         }
     }
 
-    fn spec(&mut self, meta: &Meta) -> Option<SpecKey> {
+    fn spec(&mut self) -> Option<SpecKey> {
         let &(index, _) = self.all(Tag::SPEC).first()?;
         self.expect_bytes(index, issue::SPEC_LENGTH, 4 * SpecKey::WORDS as u64)?;
         let words: Vec<u32> = self.records(Tag::SPEC)?;
         let &[abi, features, ref rest @ ..] = words.first_chunk::<{ SpecKey::WORDS }>()?;
         match abi {
-            1 => Some(SpecKey::of_abi_1(features, &meta.sampler)),
-            SHADER_ABI => {
+            OLDEST_ABI..=SHADER_ABI => {
                 if let Some(word) = rest.iter().position(|&word| word != 0) {
                     let message = format_args!("{:#x}", rest[word]);
                     let offset = 4 * (2 + word) as u64;
@@ -249,7 +248,7 @@ impl Loader<'_> {
                 Some(SpecKey { features })
             }
             _ => {
-                let message = format_args!("{abi}; 1 to {SHADER_ABI} are known");
+                let message = format_args!("{abi}; {OLDEST_ABI} to {SHADER_ABI} are known");
                 self.issues.add(issue::SPEC_ABI, Tag::SPEC, 0, message);
                 None
             }

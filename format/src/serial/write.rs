@@ -26,8 +26,8 @@ const TILE_PART_BYTES: u64 = 4 << 20;
 /// Runs jobs: calls its second argument once for every number below the first.
 pub type Executor<'a> = dyn Fn(usize, &(dyn Fn(usize) + Sync)) + 'a;
 
-/// Sections share a bundle up to this many raw bytes. Larger ones pack better by themselves, and the
-/// strongest level takes them no longer (docs/decisions/0018).
+/// Sections share a bundle up to this many raw bytes. Larger ones pack better by themselves
+/// (docs/decisions/0018).
 const SHARED_BYTES: usize = 32 << 10;
 
 /// A section before it is packed.

@@ -111,7 +111,7 @@ const CONTENT_CASES: &[FileCase] = &[
         s[PROV].refill(&content);
     }),
     (3030, |s| cut(&mut s[SPEC], 4)),
-    (3031, |s| patch(&mut s[SPEC], 0, &[0])),
+    (3031, |s| patch(&mut s[SPEC], 0, &[1])),
     (3031, |s| patch(&mut s[SPEC], 0, &[3])),
     (3038, |s| patch(&mut s[SPEC], 8, &[1])),
     (3038, |s| patch(&mut s[SPEC], 31, &[1])),
