@@ -5,6 +5,7 @@
 pub mod fixture;
 pub mod fonts;
 pub mod gpu;
+pub mod hostile;
 pub mod parity;
 pub mod random;
 pub mod scopes;

@@ -35,11 +35,9 @@ impl MipSection {
 /// level of any, images ascending within a level.
 pub(super) fn mip_sections(sizes: &[[u32; 2]]) -> Vec<MipSection> {
     let first_small = |size: &[u32; 2]| {
-        let longer = |level: u32| size[0].max(size[1]) >> level;
-        let levels = 0..Image::level_count(*size);
-        levels
-            .take_while(|&level| longer(level) > SMALL_SIDE)
-            .count() as u32
+        let small = |level: &u32| size[0].max(size[1]) >> level <= SMALL_SIDE;
+        // The last level has one texel.
+        (0..Image::level_count(*size)).find(small).unwrap_or(0)
     };
     let small = sizes.iter().enumerate().map(|(image, size)| MipSection {
         image,

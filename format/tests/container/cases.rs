@@ -69,7 +69,7 @@ const TABLE_CASES: &[FileCase] = &[
     }),
     (2012, |s| s[CELL].raw_bytes += 1),
     (2012, |s| {
-        s[CELL].stored_lie = Some(s[CELL].stored.len() as u32 - 1)
+        s[CELL].stored_lie = Some(s[CELL].stored.len() as u32 - 1);
     }),
     (2012, |s| {
         s[ENTR].share();
@@ -342,7 +342,7 @@ fn broken_headers_have_the_issue() {
             b[12..16].copy_from_slice(&u32::MAX.to_le_bytes());
         }),
         (1006, |b| {
-            b[12..16].copy_from_slice(&60_000_u32.to_le_bytes())
+            b[12..16].copy_from_slice(&60_000_u32.to_le_bytes());
         }),
         (1007, |b| b[40] = b'X'),
         (1008, |b| b[8] = 1),
