@@ -184,7 +184,7 @@ fn shader() -> Content {
 /// Cells of which each names the first list; as stored, the second and later ones count back over it.
 fn cells(count: usize, list_words: u32) -> Content {
     let list = 2 << 30;
-    let back = list | 0_u32.wrapping_sub(list_words) & (list >> 1) - 1;
+    let back = list | 0_u32.wrapping_sub(list_words) & ((list >> 1) - 1);
     repeated(*b"CELL", bytes_of([list]), &back.to_le_bytes(), count - 1)
 }
 
@@ -294,7 +294,7 @@ fn tests52() -> Vec<u8> {
     // As stored, each list counts from the end of the list before it, and begins one entry later.
     let starts = (0..52 * 52).map(|cell: u32| match cell {
         0 => list,
-        cell => list | (2 * cell).wrapping_sub(2 * count) & (list >> 1) - 1,
+        cell => list | (2 * cell).wrapping_sub(2 * count) & ((list >> 1) - 1),
     });
     file(&[
         meta(52, true),
