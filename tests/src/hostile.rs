@@ -56,7 +56,7 @@ pub const HOSTILE: [Hostile; 6] = [
     },
     Hostile {
         name: "tests52",
-        what: "2,704 lists that share one run of thousands of nested tests",
+        what: "2,704 lists that share one row of thousands of nested branches",
         make: tests52,
     },
 ];
@@ -198,7 +198,7 @@ fn entries(head: u32, last: u32, count: usize, record_words: u32) -> Content {
 
 const LAST: u32 = 1 << 27;
 const CURVES: u32 = 2 << 28;
-const TEST: u32 = 4 << 28;
+const BRANCH: u32 = 4 << 28;
 
 fn full512() -> Vec<u8> {
     let entry = |last| [last | 1, 0];
@@ -277,11 +277,11 @@ fn img14k() -> Vec<u8> {
 }
 
 fn tests52() -> Vec<u8> {
-    // Half of the tests jump over as many entries as follow each, the others to one place.
+    // Half of the branches pass over equally many entries, the others have one target.
     let (count, record_words) = (4_095_u32, 4);
     let head = |at: u32| match at {
-        0..2_047 => TEST | 2_046,
-        at if at < count - 1 => TEST | (count - 1 - at),
+        0..2_047 => BRANCH | 2_046,
+        at if at < count - 1 => BRANCH | (count - 1 - at),
         _ => LAST,
     };
     let data = |at: u32| match at {

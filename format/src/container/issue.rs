@@ -205,8 +205,8 @@ issue_table! {
     CELL_PAINT = 5003 Malformed "the paint of a cell does not exist";
     LIST_OFFSET = 5004 Malformed "a list starts outside the entries or inside an entry";
     LIST_END = 5005 Malformed "a list has no last entry within 4,096 entries";
-    LIST_ITEMS = 5006 Malformed "a list has more than 32,768 items";
-    ALL_ITEMS = 5007 Malformed "all lists together have more than 2^23 items";
+    LIST_COMMANDS = 5006 Malformed "a list has more than 32,768 commands";
+    ALL_COMMANDS = 5007 Malformed "all lists together have more than 2^23 commands";
     ENTRY_COUNT = 5010 Malformed "an entry is incomplete";
     ENTRY_WORD = 5011 Malformed "an entry has no meaning";
     ENTRY_PAINT = 5012 Malformed "the paint of an entry does not exist";
@@ -219,11 +219,11 @@ issue_table! {
     OUTLINE_RECORDS = 5022 Malformed "the curve records differ from those made from the outlines";
     OUTLINE_TWICE = 5023 Malformed "CURV and OUTL are both present";
 
-    LIST_JUMP = 5030 Malformed "a jump in a list has an invalid target";
+    LIST_BRANCH = 5030 Malformed "a branch in a list has an invalid target";
     LIST_GROUP = 5031 Malformed "a group in a list lacks its open or its close";
     LIST_MASK = 5032 Malformed "a mask in a list is not followed by its group";
     LIST_BLEND = 5033 Malformed "a group that is not isolated has a blend mode";
-    LIST_FRAMES = 5034 Malformed "a list needs more than 32 frames";
+    LIST_BLEND_DEPTH = 5034 Malformed "a list needs more than 32 levels of the blend stack";
 
     TILE_BYTES = 6002 Malformed "the length of the tiles differs from what the layers require";
     TILE_ALPHA = 6003 Malformed "the alpha of a tile's texel is not 255";

@@ -37,7 +37,7 @@ impl Tag {
     pub const CURV: Self = Self(*b"CURV");
     /// Outlines that curve records are cut from: [`crate::StoredOutlines`].
     pub const OUTL: Self = Self(*b"OUTL");
-    /// MSDF tiles of a run of layers.
+    /// MSDF tiles of a range of layers.
     pub const TILE: Self = Self(*b"TILE");
     /// Texels of one level of one image, or of all its small levels.
     pub const MIPS: Self = Self(*b"MIPS");

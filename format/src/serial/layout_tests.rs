@@ -126,7 +126,7 @@ fn enumerations() -> String {
             Msdf,
             Curves,
             Image,
-            Test,
+            Branch,
             Open,
             Close,
             Mask
@@ -234,7 +234,7 @@ fn values() -> String {
         "curve record",
         &words(&curve_header().encode().expect("fits")),
     );
-    add("curve sources", &stream::encode(&sources(), &[]));
+    add("stored outlines", &stream::encode(&stored_outlines(), &[]));
     text
 }
 
@@ -337,7 +337,7 @@ fn entries() -> Vec<u32> {
     let entries = [
         entry(EntryKind::Msdf, false, false),
         entry(EntryKind::Curves, false, true),
-        entry(EntryKind::Test, true, false),
+        entry(EntryKind::Branch, true, false),
     ];
     let words = |entry: Entry| entry.encode().expect("fits");
     entries.into_iter().flat_map(words).collect()
@@ -355,7 +355,7 @@ fn curve_header() -> CurveHeader {
     }
 }
 
-fn sources() -> StoredOutlines {
+fn stored_outlines() -> StoredOutlines {
     let line = |from, to| StoredSegment {
         from,
         control: None,

@@ -134,19 +134,19 @@ impl VtexFile {
         }
     }
 
-    /// Runs of whole layers.
+    /// Ranges of whole layers.
     fn tile_parts(&self) -> Vec<Part<'_>> {
         let tile_bytes = 4 * tile_texels(self.meta.grid.texels_per_cell);
         let bytes = |layer: &LayerRecord| tile_bytes * u64::from(layer.tile_count);
-        let mut runs: Vec<u64> = Vec::new();
+        let mut ranges: Vec<u64> = Vec::new();
         for bytes in self.layers.iter().map(bytes) {
-            match runs.last_mut() {
+            match ranges.last_mut() {
                 Some(total) if *total < TILE_PART_BYTES => *total += bytes,
-                _ => runs.push(bytes),
+                _ => ranges.push(bytes),
             }
         }
         let mut rest = self.tiles.as_slice();
-        let cut = runs.into_iter().map(|total| {
+        let cut = ranges.into_iter().map(|total| {
             let (texels, behind) = rest.split_at(usize::try_from(total).unwrap_or(rest.len()));
             rest = behind;
             Part::new(Tag::TILE, planes::planes_from_texels(texels))
@@ -202,7 +202,7 @@ fn bundles(parts: Vec<Part<'_>>) -> Result<Vec<Bundle<'_>>, Issue> {
     Ok(bundles)
 }
 
-/// Lays packed bundles behind header and table.
+/// Places packed bundles behind header and table.
 fn assemble(bundles: &[Bundle<'_>], stored: &[(Codec, Vec<u8>)]) -> Vec<u8> {
     let mut table = Vec::new();
     for (bundle, (codec, payload)) in bundles.iter().zip(stored) {

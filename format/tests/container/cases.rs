@@ -10,9 +10,9 @@ use vtex_format::{
 
 use crate::forge::{Forged, hash, put_together, seal, take_apart};
 use crate::gradients::{GRADIENT_FILES, GRADIENT_VALUES};
+use crate::grouped::{GROUPED_VALUES, grouped};
 use crate::outlined::{OUTLINED_CASES, OUTLINED_VALUES};
 use crate::sample;
-use crate::scoped::{SCOPED_VALUES, scoped};
 
 /// A change to the sections of the sample, and the code of the issue it makes.
 pub(crate) type FileCase = (u16, fn(&mut Vec<Forged>));
@@ -313,7 +313,7 @@ fn broken_values_have_the_issue_and_are_not_written() {
     check_values(&sample::small(), VALUE_CASES);
     check_values(&sample::small(), GRADIENT_VALUES);
     check_values(&sample::outlined(), OUTLINED_VALUES);
-    check_values(&scoped(), SCOPED_VALUES);
+    check_values(&grouped(), GROUPED_VALUES);
 }
 
 fn check_values(sound: &VtexFile, cases: &[ValueCase]) {
@@ -359,7 +359,13 @@ fn broken_headers_have_the_issue() {
 fn every_issue_has_a_case() {
     let files = [TABLE_CASES, CONTENT_CASES, OUTLINED_CASES].concat();
     let files = files.iter().map(|case| case.0);
-    let values = [VALUE_CASES, OUTLINED_VALUES, GRADIENT_VALUES, SCOPED_VALUES].concat();
+    let values = [
+        VALUE_CASES,
+        OUTLINED_VALUES,
+        GRADIENT_VALUES,
+        GROUPED_VALUES,
+    ]
+    .concat();
     let values = values.iter().map(|case| case.0);
     // Memory that a machine lacks, and a section of 4 GiB, have tests beside their checks.
     let others = [1001, 1002, 1003, 1004, 1006, 1007, 1008, 2019, 2022];

@@ -3,8 +3,8 @@
 use vtex_format::{BundleInfo, Codec, Limits, VtexFile, directory, validate};
 
 use crate::forge::{put_together, table_bytes, take_apart};
+use crate::grouped::grouped;
 use crate::sample;
-use crate::scoped::scoped;
 
 /// The sample with text long enough that some sections are packed.
 fn bytes_with_both_codecs() -> Vec<u8> {
@@ -41,7 +41,7 @@ fn every_flipped_bit_is_found_or_harmless() {
     for bytes in [
         bytes_with_both_codecs(),
         sample::outlined().to_bytes().unwrap(),
-        scoped().to_bytes().unwrap(),
+        grouped().to_bytes().unwrap(),
     ] {
         flip_every_bit(&bytes);
     }
@@ -95,7 +95,7 @@ fn every_flipped_bit_of_header_and_table_is_found() {
 fn flipped_bits_under_right_hashes_do_no_harm() {
     // Hashes stop accidents, not intent: here the content changes and the hashes with it, so that
     // every check behind them is met. What still reads must be sound: it can be written again.
-    for file in [sample::small(), sample::outlined(), scoped()] {
+    for file in [sample::small(), sample::outlined(), grouped()] {
         flip_under_right_hashes(&file);
     }
 }
@@ -135,7 +135,7 @@ fn rubbish_is_refused() {
 
 #[test]
 fn rubbish_sections_under_right_hashes_do_no_harm() {
-    for file in [sample::small(), sample::outlined(), scoped()] {
+    for file in [sample::small(), sample::outlined(), grouped()] {
         forge_rubbish(&file);
     }
 }

@@ -28,7 +28,7 @@ fn nested(depth: usize) -> VtexFile {
 }
 
 #[test]
-fn deep_groups_are_those_of_more_than_two_frames() {
+fn deep_groups_are_those_of_more_than_two_levels() {
     for (depth, deep) in [(0, false), (1, false), (2, false), (3, true), (32, true)] {
         let mut file = sample::with_key(nested(depth));
         let found = file.spec.features & Features::DEEP_GROUPS != 0;

@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 
 use vtex_format::{Codec, Limits, ReadError, VtexFile, directory, validate};
 
+use crate::grouped::grouped;
 use crate::sample;
-use crate::scoped::scoped;
 
 fn kept(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -103,7 +103,7 @@ fn summary(bytes: &[u8]) -> String {
 
 #[test]
 fn version_2_is_read_as_it_was() {
-    let mut large = scoped();
+    let mut large = grouped();
     // More than fits one bundle: the shader has one of its own.
     large.shader.wgsl_fragment = "let zero = 0.0;\n".repeat(3_000);
     let samples = [

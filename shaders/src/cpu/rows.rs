@@ -9,7 +9,7 @@ use super::Sampler;
 use super::math::{clamp, to_f32, to_u32};
 use super::plane::{Vec2, point};
 use super::samples::{Samples, base};
-use crate::layout::item::{DOWN_BIT, EVEN_ODD_BIT, LINE_BIT};
+use crate::layout::cmd::{DOWN_BIT, EVEN_ODD_BIT, LINE_BIT};
 use crate::layout::rows::{COLUMNS, EVERY, ROWS, SHIFTS};
 
 /// A row and a column are no smaller, in cells.
@@ -40,7 +40,7 @@ pub(super) struct Rows {
 
 /// No sample lies farther from the centre, in cells, along x and along y. A bound without a root: the
 /// sides of a parallelogram of one covariance add up to no more than sqrt(2) times what theirs do.
-pub(super) fn reach([ax, ay, bx, by]: [f32; 4]) -> Vec2 {
+pub(super) fn extent([ax, ay, bx, by]: [f32; 4]) -> Vec2 {
     [(ax.abs() + bx.abs()) * 0.7072, (ay.abs() + by.abs()) * 0.5]
 }
 
@@ -198,9 +198,9 @@ impl CellRows {
     }
 
     /// The samples right of a segment, in the rows that it crosses.
-    fn right(&self, item: [u32; 4]) -> u32 {
+    fn right(&self, command: [u32; 4]) -> u32 {
         let rows = &self.units;
-        let [a, b] = [point(item[0]), point(item[2])];
+        let [a, b] = [point(command[0]), point(command[2])];
         let first = rows.above(a[1]);
         let end = rows.above(b[1]);
         // The GPU's text has no branches; these skip the rest for most segments.
@@ -211,10 +211,10 @@ impl CellRows {
             return until(end) & !until(first);
         }
         // A line's control point is its upper end: half way makes its parameter linear.
-        let c = if item[3] & LINE_BIT != 0 {
+        let c = if command[3] & LINE_BIT != 0 {
             [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
         } else {
-            point(item[1])
+            point(command[1])
         };
         // x - x0 = t (x1 + t x2), y - y0 = t (2 half_slope + t bend).
         let [x1, x2] = [2.0 * (c[0] - a[0]), a[0] - 2.0 * c[0] + b[0]];
@@ -236,10 +236,10 @@ impl CellRows {
 impl Samples for CellRows {
     type Winding = Winding;
 
-    fn wind(&self, winding: &mut Winding, item: [u32; 4]) {
-        let mut carry = self.right(item);
+    fn wind(&self, winding: &mut Winding, command: [u32; 4]) {
+        let mut carry = self.right(command);
         // All ones to count down.
-        let down = if item[3] & DOWN_BIT != 0 { 0 } else { EVERY };
+        let down = if command[3] & DOWN_BIT != 0 { 0 } else { EVERY };
         for bits in winding {
             let next = (*bits ^ down) & carry;
             *bits ^= carry;
@@ -247,14 +247,14 @@ impl Samples for CellRows {
         }
     }
 
-    fn filled(&self, winding: Winding, tail: u32) -> u32 {
+    fn filled(&self, winding: Winding, tag: u32) -> u32 {
         // What the segments' windings are where all of it is none.
-        let none = base(tail).wrapping_neg().cast_unsigned();
+        let none = base(tag).wrapping_neg().cast_unsigned();
         let mut some = 0;
         for (bit, bits) in winding.iter().enumerate() {
             some |= bits ^ (none >> bit & 1).wrapping_neg();
         }
-        if tail & EVEN_ODD_BIT != 0 {
+        if tag & EVEN_ODD_BIT != 0 {
             winding[0] ^ (none & 1).wrapping_neg()
         } else {
             some

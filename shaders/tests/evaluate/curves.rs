@@ -40,7 +40,7 @@ fn alpha(file: &VtexFile, filter: FilterMode, width: f32) -> impl Fn(f32, f32) -
     move |u, v| Sampler::new(&words).sample([u, v], [width / columns, 0.0, 0.0, width])[3]
 }
 
-/// Points of a raster that hits no edge of the shapes here.
+/// Points of a raster that lie on no edge of the shapes here.
 fn raster() -> impl Iterator<Item = (f32, f32)> {
     (0..97).flat_map(|i| (0..97).map(move |j| ((i as f32 + 0.37) / 97.0, (j as f32 + 0.61) / 97.0)))
 }

@@ -224,7 +224,7 @@ fn a_gradient_composites_as_a_colour_does() {
         for i in 0..50_u16 {
             let u = (f32::from(i) + 0.3) / 50.0;
             let middle = color_at(&gradient, [f64::from(u), 0.5]).expect("not at the jump");
-            let expected: Rgba = formula::shown(&[term(front), term(middle), term(back)]);
+            let expected: Rgba = formula::composited(&[term(front), term(middle), term(back)]);
             let got = Sampler::new(&words).sample([u, 0.5], [0.0; 4]);
             check(got, expected, 1e-4);
         }

@@ -50,7 +50,7 @@ const VTEX_ROWS_LEAST: f32 = 1e-12;
 
 // No sample lies farther from the centre, in cells, along x and along y. A bound without a root: the
 // sides of a parallelogram of one covariance add up to no more than sqrt(2) times what theirs do.
-fn vtex_rows_reach(axes: vec4f) -> vec2f {
+fn vtex_rows_extent(axes: vec4f) -> vec2f {
     return (abs(axes.xy) + abs(axes.zw)) * vec2f(0.7072, 0.5);
 }
 
@@ -155,13 +155,13 @@ fn vtex_rows_until(row: i32) -> u32 {
 }
 
 // The samples right of a segment, in the rows that it crosses.
-fn vtex_rows_right(samples: VtexSamples, item: vec4u) -> u32 {
+fn vtex_rows_right(samples: VtexSamples, command: vec4u) -> u32 {
     let rows = samples.units;
-    let a = vtex_segment_point(item.x);
-    let b = vtex_segment_point(item.z);
+    let a = vtex_segment_point(command.x);
+    let b = vtex_segment_point(command.z);
     // A line's control point is its upper end: half way makes its parameter linear.
-    let line = (item.w & VTEX_ITEM_LINE_BIT) != 0u;
-    let c = select(vtex_segment_point(item.y), 0.5 * (a + b), line);
+    let line = (command.w & VTEX_CMD_LINE_BIT) != 0u;
+    let c = select(vtex_segment_point(command.y), 0.5 * (a + b), line);
     // x - x0 = t (x1 + t x2), y - y0 = t (2 half_slope + t bend).
     let x1 = 2.0 * (c.x - a.x);
     let x2 = a.x - 2.0 * c.x + b.x;
@@ -185,10 +185,10 @@ fn vtex_rows_right(samples: VtexSamples, item: vec4u) -> u32 {
 }
 
 // Adds what a segment does to the windings.
-fn vtex_samples_wind(samples: VtexSamples, winding: VtexWinding, item: vec4u) -> VtexWinding {
-    var carry = vtex_rows_right(samples, item);
+fn vtex_samples_wind(samples: VtexSamples, winding: VtexWinding, command: vec4u) -> VtexWinding {
+    var carry = vtex_rows_right(samples, command);
     // All ones to count down.
-    let down = select(VTEX_ROWS_EVERY, 0u, (item.w & VTEX_ITEM_DOWN_BIT) != 0u);
+    let down = select(VTEX_ROWS_EVERY, 0u, (command.w & VTEX_CMD_DOWN_BIT) != 0u);
     var low = winding.low;
     let next0 = (low.x ^ down) & carry;
     let next1 = (low.y ^ down) & next0;
@@ -197,14 +197,14 @@ fn vtex_samples_wind(samples: VtexSamples, winding: VtexWinding, item: vec4u) ->
     return VtexWinding(low ^ vec4u(carry, next0, next1, next2), winding.high ^ next3);
 }
 
-// The samples that an entry with this last word covers.
-fn vtex_samples_filled(winding: VtexWinding, tail: u32) -> u32 {
+// The samples that an entry with this tag covers.
+fn vtex_samples_filled(winding: VtexWinding, tag: u32) -> u32 {
     // What the segments' windings are where all of it is none.
-    let none = 0u - bitcast<u32>(bitcast<i32>(tail << VTEX_ITEM_BASE_LEFT) >> VTEX_ITEM_BASE_RIGHT);
+    let none = 0u - bitcast<u32>(bitcast<i32>(tag << VTEX_CMD_BASE_LEFT) >> VTEX_CMD_BASE_RIGHT);
     let low = winding.low ^ (vec4u(0u) - ((vec4u(none) >> vec4u(0u, 1u, 2u, 3u)) & vec4u(1u)));
     let high = winding.high ^ (0u - ((none >> 4u) & 1u));
     let some = low.x | low.y | low.z | low.w | high;
-    return select(some, low.x, (tail & VTEX_ITEM_EVEN_ODD_BIT) != 0u);
+    return select(some, low.x, (tag & VTEX_CMD_EVEN_ODD_BIT) != 0u);
 }
 
 // The mean of samples, in uv. From counts of bits: of odd rows, of rows with bit 1 and of rows with

@@ -7,7 +7,7 @@ use vtex_format::MaskKind;
 use vtex_shaders::record;
 use vtex_testing::srgb;
 
-use super::tree::{Clip, Group, Node, Scope};
+use super::tree::{Clip, Compositing, Group, Node};
 use super::{Drawing, lattice};
 
 type Rgba = [f64; 4];
@@ -48,17 +48,17 @@ impl<'a> Lens<'a> {
                 let paint = [r * a, g * a, b * a, a];
                 decode(source_over(paint, encode(behind)))
             }
-            Node::Scope(scope) => self.scope(scope, behind),
+            Node::Group(group) => self.group(group, behind),
         })
     }
 
-    fn scope(&self, scope: &Scope, behind: Rgba) -> Rgba {
-        if scope.clip.as_ref().is_some_and(|clip| !self.inside(clip)) {
+    fn group(&self, group: &Group, behind: Rgba) -> Rgba {
+        if group.clip.as_ref().is_some_and(|clip| !self.inside(clip)) {
             return behind;
         }
-        match &scope.group {
-            Some(group) => self.group(group, &scope.body, behind),
-            None => self.over(&scope.body, behind),
+        match &group.compositing {
+            Some(how) => self.composite(how, &group.body, behind),
+            None => self.over(&group.body, behind),
         }
     }
 
@@ -69,8 +69,8 @@ impl<'a> Lens<'a> {
         within(&clip.also) && parts.any(|part| within(&part.clip) && self.covered(part.outline))
     }
 
-    fn group(&self, group: &Group, body: &[Node], behind: Rgba) -> Rgba {
-        let masks = group.masks.iter().map(|mask| {
+    fn composite(&self, how: &Compositing, body: &[Node], behind: Rgba) -> Rgba {
+        let masks = how.masks.iter().map(|mask| {
             let content = self.color(&mask.body);
             match mask.kind {
                 MaskKind::Luminance => luminance(encode(content)),
@@ -78,10 +78,10 @@ impl<'a> Lens<'a> {
                 MaskKind::LinearLuminance => luminance(content),
             }
         });
-        let weight = f64::from(group.opacity) * masks.product::<f64>();
-        if group.isolated {
+        let weight = f64::from(how.opacity) * masks.product::<f64>();
+        if how.isolated {
             let source = encode(self.color(body)).map(|c| weight * c);
-            return decode(blend(group.mode, encode(behind), source));
+            return decode(blend(how.mode, encode(behind), source));
         }
         decode(mix(encode(behind), encode(self.over(body, behind)), weight))
     }

@@ -9,11 +9,11 @@ use crate::sample;
 
 /// As [`sample::small`], but its first cell lists a clipped, masked, blended group with a group of
 /// half opacity in it, and its second a part of that list.
-pub(crate) fn scoped() -> VtexFile {
+pub(crate) fn grouped() -> VtexFile {
     let mut file = sample::small();
     let half = 0.5_f32.to_bits();
     let entries = [
-        entry(EntryKind::Test, 9, 0),
+        entry(EntryKind::Branch, 9, 0),
         entry(EntryKind::Open, 0, OPEN_ISOLATED),
         entry(EntryKind::Full, 1, 0),
         entry(EntryKind::Mask, 6, MaskKind::Luminance as u32),
@@ -38,7 +38,7 @@ pub(crate) fn scoped() -> VtexFile {
     sample::with_key(file)
 }
 
-/// Entries of [`sample::small`], in front of those of [`scoped`].
+/// Entries of [`sample::small`], in front of those of [`grouped`].
 const FIRST: usize = 5;
 
 const fn entry(kind: EntryKind, index: u32, data: u32) -> Entry {
@@ -71,7 +71,7 @@ fn second(file: &mut VtexFile, at: usize) {
     file.cells[1] = 2 << 30 | (2 * (FIRST + at)) as u32;
 }
 
-pub(crate) const SCOPED_VALUES: &[ValueCase] = &[
+pub(crate) const GROUPED_VALUES: &[ValueCase] = &[
     (3033, |f| f.spec.features &= !Features::CLIPS),
     (3033, |f| f.spec.features &= !Features::GROUPS),
     (3033, |f| f.spec.features &= !Features::BLENDS),
@@ -88,7 +88,7 @@ pub(crate) const SCOPED_VALUES: &[ValueCase] = &[
     (5030, |f| *head(f, 0) += 2),
     (5030, |f| *head(f, 0) -= 1),
     (5030, |f| *head(f, 0) -= 8),
-    // A test at a group's end, and at the list's.
+    // A branch at a group's end, and at the list's.
     (5030, |f| *head(f, 8) = 4 << 28 | 1),
     (5030, |f| *head(f, 10) = 4 << 28 | 1 << 27 | 1),
     (5031, |f| plain(f, 4)),
@@ -108,7 +108,7 @@ pub(crate) const SCOPED_VALUES: &[ValueCase] = &[
     (5034, deep),
 ];
 
-/// A list of seventeen groups in one another.
+/// A list of thirty-three groups in one another.
 fn deep(file: &mut VtexFile) {
     file.entries.truncate(2 * FIRST);
     let open = entry(EntryKind::Open, 0, 0);
@@ -124,7 +124,7 @@ fn deep(file: &mut VtexFile) {
 
 #[test]
 fn the_sample_needs_what_it_holds() {
-    let file = scoped();
+    let file = grouped();
     assert_eq!(file.check(), []);
     let bits = Features::CLIPS | Features::GROUPS | Features::BLENDS;
     assert_eq!(file.spec.features & bits, bits);
@@ -134,7 +134,7 @@ fn the_sample_needs_what_it_holds() {
 #[test]
 fn lists_may_begin_where_blocks_do() {
     for at in [1, 4, 10] {
-        let mut file = scoped();
+        let mut file = grouped();
         second(&mut file, at);
         assert_eq!(file.check(), [], "entry {at}");
         file.cells[0] = 0;

@@ -2,10 +2,10 @@
 
 use vtex_format::{CurveHeader, Entry, EntryKind};
 
-use super::items::Order;
+use super::commands::Order;
 use super::list::List;
 use super::outline::Region;
-use crate::layout::item;
+use crate::layout::cmd;
 
 /// The record of all that lies left of x = 2000, and one of all that lies above y = 2000.
 fn records() -> Vec<u32> {
@@ -51,37 +51,37 @@ fn around(x: f64, y: f64) -> Region {
     }
 }
 
-/// Last words of the items without what a list's order gives them.
-fn tails(list: &List) -> Vec<u32> {
-    let items = list.items(Order::FrontToBack);
-    let kept = item::CONTROL_BIT | item::INDEX_MASK | item::OPAQUE_BIT;
-    items.iter().map(|item| item[3] & kept).collect()
+/// Tags of the commands without what a list's order gives them.
+fn tags(list: &List) -> Vec<u32> {
+    let commands = list.commands(Order::FrontToBack);
+    let kept = cmd::CONTROL_BIT | cmd::INDEX_MASK | cmd::OPAQUE_BIT;
+    commands.iter().map(|command| command[3] & kept).collect()
 }
 
 const FULL: EntryKind = EntryKind::Full;
-const TEST: EntryKind = EntryKind::Test;
+const BRANCH: EntryKind = EntryKind::Branch;
 
 #[test]
-fn tests_that_are_decided_go() {
+fn branches_that_are_decided_go() {
     let clip = list(&[
-        (TEST, false, 1, LEFT),
+        (BRANCH, false, 1, LEFT),
         (FULL, true, 3, 0),
         (FULL, true, 4, 0),
     ]);
     assert_eq!(clip.within(&around(1000.0, 900.0)).solid(), Some(3));
     assert_eq!(clip.within(&around(3000.0, 900.0)).solid(), Some(4));
     let edge = clip.within(&around(2000.0, 900.0));
-    let test = item::CONTROL_BIT | 1;
-    let opaque = item::OPAQUE_BIT;
-    assert_eq!(tails(&edge), [test, opaque | 3, opaque | 4]);
+    let branch = cmd::CONTROL_BIT | 1;
+    let opaque = cmd::OPAQUE_BIT;
+    assert_eq!(tags(&edge), [branch, opaque | 3, opaque | 4]);
     assert!(!edge.has_groups());
 }
 
 #[test]
 fn a_union_becomes_the_part_that_counts() {
     let union = list(&[
-        (TEST, true, 1, LEFT),
-        (TEST, false, 1, ABOVE),
+        (BRANCH, true, 1, LEFT),
+        (BRANCH, false, 1, ABOVE),
         (FULL, false, 3, 0),
     ]);
     assert_eq!(union.within(&around(1000.0, 3000.0)).solid(), Some(3));
@@ -89,9 +89,9 @@ fn a_union_becomes_the_part_that_counts() {
     assert!(union.within(&around(3000.0, 3000.0)).is_empty());
     // Only the left one is left: it is turned, so that its body follows it.
     let edge = union.within(&around(2000.0, 3000.0));
-    assert_eq!(tails(&edge), [item::CONTROL_BIT, 3]);
+    assert_eq!(tags(&edge), [cmd::CONTROL_BIT, 3]);
     let both = union.within(&around(2000.0, 2000.0));
-    assert_eq!(both.item_count(), union.item_count());
+    assert_eq!(both.command_count(), union.command_count());
 }
 
 #[test]
@@ -107,9 +107,9 @@ fn groups_of_nothing_go() {
             (EntryKind::Close, false, 0, opacity),
         ])
     };
-    let shown = group(half).within(&around(1000.0, 1000.0));
-    assert_eq!(shown.item_count(), 6);
-    assert!(shown.has_groups());
+    let visible = group(half).within(&around(1000.0, 1000.0));
+    assert_eq!(visible.command_count(), 6);
+    assert!(visible.has_groups());
     assert!(group(half).within(&around(3000.0, 1000.0)).is_empty());
     assert!(group(half).within(&around(1000.0, 3000.0)).is_empty());
     assert!(group(0).within(&around(1000.0, 1000.0)).is_empty());

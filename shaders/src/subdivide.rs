@@ -2,39 +2,39 @@
 //!
 //! A file holds coarse cells, which are small; a lookup wants fine ones, in which hardly an edge is
 //! left to test. A fine cell keeps of its cell's list the segments, as they are, that its lookups
-//! can tell apart. Nothing is cut or rounded, so every lookup gets the answer that the coarse cell
+//! can tell apart. Nothing is cut or rounded, so every lookup gets the result that the coarse cell
 //! gives.
 
+mod clearance;
 mod clip;
+mod commands;
 mod depth;
 mod group;
-mod items;
 mod list;
 mod outline;
-mod room;
 
 use std::collections::BTreeMap;
 
 use vtex_format::{CellWord, VtexFile};
 
 use crate::layout::{FilterMode, cell};
-use items::Order;
+use commands::Order;
 use list::List;
 use outline::Region;
 
 /// The cells that evaluators read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Refined {
+pub(crate) struct Subdivision {
     /// How often the file's cells are halved.
     pub(crate) depth: u32,
     /// One word a fine cell, row by row, as [`cell`] says.
     pub(crate) words: Vec<u32>,
-    /// All lists' items.
-    pub(crate) items: Vec<[u32; 4]>,
+    /// All lists' commands.
+    pub(crate) commands: Vec<[u32; 4]>,
 }
 
 /// `halvings` as in [`crate::PackOptions`].
-pub(crate) fn refine(file: &VtexFile, filter: FilterMode, halvings: Option<u32>) -> Refined {
+pub(crate) fn subdivide(file: &VtexFile, filter: FilterMode, halvings: Option<u32>) -> Subdivision {
     let depth = match halvings {
         Some(halvings) => halvings.min(depth::MAX_DEPTH),
         None => depth::choose(file, filter),
@@ -46,7 +46,7 @@ pub(crate) fn refine(file: &VtexFile, filter: FilterMode, halvings: Option<u32>)
         filter,
         pitch: columns << depth,
         words: vec![0; (columns << depth) * (rows << depth)],
-        items: Vec::new(),
+        commands: Vec::new(),
         shared: BTreeMap::new(),
     };
     for (index, &word) in file.cells.iter().enumerate() {
@@ -64,12 +64,12 @@ pub(crate) fn refine(file: &VtexFile, filter: FilterMode, halvings: Option<u32>)
         }
     }
     if filter == FilterMode::Footprint {
-        room::write(&mut build.words, build.pitch);
+        clearance::write(&mut build.words, build.pitch);
     }
-    Refined {
+    Subdivision {
         depth,
         words: build.words,
-        items: build.items,
+        commands: build.commands,
     }
 }
 
@@ -85,11 +85,11 @@ fn whole_cell(file: &VtexFile) -> Region {
 }
 
 /// What the list of a fine cell serves, where `whole` is a cell of the file.
-fn reached(fine: &Region, whole: &Region, filter: FilterMode) -> Region {
+fn dilated(fine: &Region, whole: &Region, filter: FilterMode) -> Region {
     if filter == FilterMode::Footprint {
         let side = fine.x[1] - fine.x[0];
-        fine.grown(side * f64::from(cell::OVERLAP) / 16.0)
-            .meet(whole)
+        fine.dilated(side * f64::from(cell::OVERLAP) / 16.0)
+            .intersection(whole)
     } else {
         *fine
     }
@@ -106,7 +106,7 @@ struct Build {
     filter: FilterMode,
     pitch: usize,
     words: Vec<u32>,
-    items: Vec<[u32; 4]>,
+    commands: Vec<[u32; 4]>,
     /// Where the lists of this cell's parts lie.
     shared: BTreeMap<Vec<[u32; 4]>, u32>,
 }
@@ -126,7 +126,7 @@ impl Build {
             let corners = [[x, y], [x + half, y], [x, y + half], [x + half, y + half]];
             for (quarter, corner) in region.quarters().iter().zip(corners) {
                 self.list(
-                    &list.within(&reached(quarter, &self.whole, self.filter)),
+                    &list.within(&dilated(quarter, &self.whole, self.filter)),
                     quarter,
                     corner,
                     level - 1,
@@ -144,10 +144,10 @@ impl Build {
             } else {
                 (cell::LIST, Order::FrontToBack)
             };
-            let items = list.items(order);
-            let next = u32::try_from(self.items.len()).unwrap_or(cell::PAYLOAD_MASK);
-            let first = *self.shared.entry(items).or_insert_with_key(|items| {
-                self.items.extend(items);
+            let commands = list.commands(order);
+            let next = u32::try_from(self.commands.len()).unwrap_or(cell::PAYLOAD_MASK);
+            let first = *self.shared.entry(commands).or_insert_with_key(|commands| {
+                self.commands.extend(commands);
                 next
             });
             tag << cell::TAG_SHIFT | first.min(cell::PAYLOAD_MASK)
@@ -157,6 +157,6 @@ impl Build {
 }
 
 #[cfg(test)]
-mod scope_tests;
+mod clips_and_groups_tests;
 #[cfg(test)]
 mod tests;

@@ -2,10 +2,10 @@
 
 use vtex_format::CurveHeader;
 
-use super::items::Order;
+use super::commands::Order;
 use super::list::List;
 use super::outline::Region;
-use crate::layout::item;
+use crate::layout::cmd;
 use crate::record;
 
 /// A generator that needs no crate.
@@ -86,10 +86,10 @@ fn entry_words(even_odd_ignored: u32) -> [u32; 2] {
     entry.encode().expect("fits")
 }
 
-/// The winding that the items of a list give at `p`.
-fn fills(items: &[[u32; 4]], p: [f32; 2]) -> bool {
-    let words: Vec<u32> = items.as_flattened().to_vec();
-    crate::cpu::items_fill(&words, p)
+/// The winding that the commands of a list give at `p`.
+fn fills(commands: &[[u32; 4]], p: [f32; 2]) -> bool {
+    let words: Vec<u32> = commands.as_flattened().to_vec();
+    crate::cpu::commands_fill(&words, p)
 }
 
 #[test]
@@ -114,7 +114,7 @@ fn parts_of_a_cell_fill_as_the_record_does() {
                 let got = if inner.is_empty() {
                     false
                 } else {
-                    inner.solid().is_some() || fills(&inner.items(Order::FrontToBack), p)
+                    inner.solid().is_some() || fills(&inner.commands(Order::FrontToBack), p)
                 };
                 assert_eq!(got, expected, "round {round}, depth {depth}, {p:?}");
                 both[usize::from(expected)] += 1;
@@ -135,11 +135,11 @@ fn windings_beyond_an_item_are_lines_beside_the_cell() {
         };
         let mut words = header.encode().expect("fits").to_vec();
         words.push(1000 | 1 << 16);
-        let items = List::decode(&entry_words(0), &words).items(Order::FrontToBack);
-        assert!(items.iter().all(|words| words[3] & item::LINE_BIT != 0));
+        let commands = List::decode(&entry_words(0), &words).commands(Order::FrontToBack);
+        assert!(commands.iter().all(|words| words[3] & cmd::LINE_BIT != 0));
         for (y, added) in [(999.0, 0), (1000.0, 1), (4000.0, 1)] {
             let odd = (base_winding + added) & 1 != 0;
-            assert_eq!(fills(&items, [50.0, y]), odd, "{base_winding} at {y}");
+            assert_eq!(fills(&commands, [50.0, y]), odd, "{base_winding} at {y}");
         }
     }
 }

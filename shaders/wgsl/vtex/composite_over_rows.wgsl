@@ -3,8 +3,8 @@
 //!use vtex/texture
 //!use vtex/lookup
 //!use vtex/samples
-//!use vtex/answer
-//!use vtex/source
+//!use vtex/resolved
+//!use vtex/brush
 // What the samples of a footprint meet where some paints are translucent: front to back,
 // sRGB-encoded. A walk ends where an opaque entry covers some of its samples for a second time and
 // not all that are left; these take another walk. So colours are decoded once behind the walk.
@@ -18,7 +18,7 @@ struct VtexSeen {
     color: vec4f,
 }
 
-struct VtexHit {
+struct VtexComposite {
     // The samples that the walk goes on with, and what they have met.
     live: u32,
     seen: VtexSeen,
@@ -29,38 +29,39 @@ struct VtexHit {
     first_seen: VtexSeen,
 }
 
-fn vtex_hit_start(live: u32) -> VtexHit {
-    return VtexHit(live, VtexSeen(), 0u, 0u, VtexSeen());
+fn vtex_composite_start(live: u32) -> VtexComposite {
+    return VtexComposite(live, VtexSeen(), 0u, 0u, VtexSeen());
 }
 
-fn vtex_hit_draw(
-    vt: VtexTexture, lookup: VtexLookup, hit: VtexHit, samples: VtexSamples, covered: u32, head: u32,
-) -> VtexHit {
-    let met = covered & hit.live;
+fn vtex_composite_draw(
+    vt: VtexTexture, lookup: VtexLookup, composite: VtexComposite, samples: VtexSamples,
+    covered: u32, tag: u32,
+) -> VtexComposite {
+    let met = covered & composite.live;
     if met == 0u {
-        return hit;
+        return composite;
     }
-    let shown = vtex_source(vt, lookup, head, vtex_samples_uv(samples, met));
-    var seen = hit.seen;
-    if shown.encoded.a > 0.0 {
+    let brush = vtex_brush(vt, lookup, tag, vtex_samples_uv(samples, met));
+    var seen = composite.seen;
+    if brush.encoded.a > 0.0 {
         seen.count += 1u;
-        seen.only = shown.linear;
-        seen.color += (1.0 - hit.seen.color.a) * shown.encoded;
+        seen.only = brush.linear;
+        seen.color += (1.0 - composite.seen.color.a) * brush.encoded;
     }
-    var next = hit;
-    let leads = (met & (~hit.live + 1u)) != 0u;
+    var next = composite;
+    let leads = (met & (~composite.live + 1u)) != 0u;
     // An opaque image shows nothing, and hides nothing, outside its rectangle.
-    let opaque = (head & VTEX_ITEM_OPAQUE_BIT) != 0u && shown.encoded.a > 0.0;
+    let opaque = (tag & VTEX_CMD_OPAQUE_BIT) != 0u && brush.encoded.a > 0.0;
     if opaque || (leads && seen.color.a >= 1.0) {
-        if met == hit.live {
+        if met == composite.live {
             next.live = 0u;
             next.last = met;
             next.seen = seen;
-        } else if hit.first == 0u {
+        } else if composite.first == 0u {
             next.first = met;
             next.first_seen = seen;
             // One that is not opaque has parted the samples.
-            next.live = select(0u, hit.live & ~met, opaque);
+            next.live = select(0u, composite.live & ~met, opaque);
         } else {
             next.live = 0u;
         }
@@ -68,18 +69,18 @@ fn vtex_hit_draw(
         next.live = met;
         next.seen = seen;
     } else {
-        next.live = hit.live & ~met;
+        next.live = composite.live & ~met;
     }
     return next;
 }
 
 // The samples left have met nothing more.
-fn vtex_hit_answer(
-    vt: VtexTexture, lookup: VtexLookup, hit: VtexHit, samples: VtexSamples,
-) -> VtexAnswer {
-    let last = hit.live | hit.last;
+fn vtex_composite_resolve(
+    vt: VtexTexture, lookup: VtexLookup, composite: VtexComposite, samples: VtexSamples,
+) -> VtexResolved {
+    let last = composite.live | composite.last;
     var mask = last;
-    var seen = hit.seen;
+    var seen = composite.seen;
     var sum = vec4f(0.0);
     for (var i = 0u; i < 2u; i += 1u) {
         // A single entry needs no transfer function where its linear light is known.
@@ -87,12 +88,12 @@ fn vtex_hit_answer(
         if seen.count > 1u || seen.only.a < 0.0 {
             value = vtex_color_decode_premultiplied(seen.color);
         }
-        sum += vtex_answer_count(mask) * value;
-        mask = hit.first;
-        seen = hit.first_seen;
+        sum += vtex_resolved_count(mask) * value;
+        mask = composite.first;
+        seen = composite.first_seen;
         if mask == 0u {
             break;
         }
     }
-    return VtexAnswer(sum, last | hit.first);
+    return VtexResolved(sum, last | composite.first);
 }

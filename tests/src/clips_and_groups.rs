@@ -8,13 +8,13 @@ mod reference;
 mod tree;
 
 use vtex_format::{
-    CellWord, CurveHeader, CurveLattice, Entry, Grid, MAX_FRAMES, Meta, PaintRecord, SpecKey,
-    VtexFile, list_frames,
+    CellWord, CurveHeader, CurveLattice, Entry, Grid, MAX_BLEND_DEPTH, Meta, PaintRecord, SpecKey,
+    VtexFile, list_blend_depth,
 };
 
 use crate::random::Random;
 pub use reference::Lens;
-pub use tree::{Clip, Group, Mask, Node, Part, Scope, Wants};
+pub use tree::{Clip, Compositing, Group, Mask, Node, Part, Wants};
 
 /// Lattice steps along a cell.
 const TEXELS_PER_CELL: u32 = 4;
@@ -43,7 +43,7 @@ impl Drawing {
         let mut r = Random::new(seed);
         let records = (0..8).map(|_| random_record(&mut r)).collect();
         let paints = (0..8).map(|_| random_paint(&mut r)).collect();
-        let tree = |_| random_tree(&mut r, wants, MAX_FRAMES);
+        let tree = |_| random_tree(&mut r, wants, MAX_BLEND_DEPTH);
         Self {
             cells: (0..cells).map(tree).collect(),
             paints,
@@ -94,30 +94,25 @@ impl Drawing {
     }
 }
 
-/// A tree that takes few enough frames.
-fn random_tree(r: &mut Random, wants: Wants, frames: u32) -> Vec<Node> {
+/// A tree that needs at most `depth` levels of the blend stack.
+fn random_tree(r: &mut Random, wants: Wants, depth: u32) -> Vec<Node> {
     loop {
         let nodes = tree::random_nodes(r, wants, 4);
         let entries = encode::entries(&nodes, &[0; RECORDS]);
-        if list_frames(&entries).is_ok_and(|taken| taken <= frames) {
+        if list_blend_depth(&entries).is_ok_and(|taken| taken <= depth) {
             return nodes;
         }
     }
 }
 
-/// The list of a random tree, none of its entries marked last or opaque; tests name some of
+/// The list of a random tree, none of its entries marked last or opaque; branches name some of
 /// `records`, the places of curve records, of which there may be none where no clip is wanted.
-pub(crate) fn random_list(
-    r: &mut Random,
-    wants: Wants,
-    records: &[u32],
-    frames: u32,
-) -> Vec<Entry> {
+pub(crate) fn random_list(r: &mut Random, wants: Wants, records: &[u32], depth: u32) -> Vec<Entry> {
     let mut places = [0; RECORDS];
     if let Some(count) = u32::try_from(records.len()).ok().filter(|&count| count > 0) {
         places = places.map(|_| records[r.below(count) as usize]);
     }
-    encode::entries(&random_tree(r, wants, frames), &places)
+    encode::entries(&random_tree(r, wants, depth), &places)
 }
 
 /// The lattice of all records.
@@ -168,18 +163,18 @@ fn random_record(r: &mut Random) -> Vec<u32> {
 /// # Panics
 /// Never: a polygon has few corners.
 pub fn polygon_record(corners: &[[u32; 2]]) -> Vec<u32> {
-    let mut runs = [const { Vec::new() }; 2];
+    let mut by_direction = [const { Vec::new() }; 2];
     for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
         let down = to[1] > from[1];
         let [a, b] = if down { [from, to] } else { [to, from] };
-        runs[usize::from(!down)].extend([a, b].map(|[x, y]| x | y << 16));
+        by_direction[usize::from(!down)].extend([a, b].map(|[x, y]| x | y << 16));
     }
     let count = |words: &Vec<u32>| u32::try_from(words.len() / 2).expect("few corners");
     let header = CurveHeader {
-        line_count: count(&runs[0]) + count(&runs[1]),
-        down_line_count: count(&runs[0]),
+        line_count: count(&by_direction[0]) + count(&by_direction[1]),
+        down_line_count: count(&by_direction[0]),
         ..CurveHeader::default()
     };
     let head = header.encode().expect("few corners");
-    [&head[..], &runs[0], &runs[1]].concat()
+    [&head[..], &by_direction[0], &by_direction[1]].concat()
 }

@@ -15,23 +15,23 @@ pub enum Node {
         paint: usize,
     },
     /// What is clipped, or composited as one.
-    Scope(Scope),
+    Group(Group),
 }
 
 /// An element or group with a clip, masks, opacity or a blend mode.
 #[derive(Clone, Debug)]
-pub struct Scope {
+pub struct Group {
     /// Outside it nothing shows.
     pub clip: Option<Clip>,
     /// Composited as one; without it the nodes show one by one.
-    pub group: Option<Group>,
+    pub compositing: Option<Compositing>,
     /// What shows, back to front.
     pub body: Vec<Node>,
 }
 
 /// How a group is composited.
 #[derive(Clone, Debug)]
-pub struct Group {
+pub struct Compositing {
     /// Whether it starts from nothing.
     pub isolated: bool,
     /// Normal unless it is isolated.
@@ -102,9 +102,9 @@ fn random_node(r: &mut Random, wants: Wants, depth: u32) -> Node {
     }
     let clips = wants.clips && (!wants.groups || r.below(2) == 0);
     let groups = wants.groups && r.below(3) > 0;
-    Node::Scope(Scope {
+    Node::Group(Group {
         clip: clips.then(|| random_clip(r, 2)),
-        group: groups.then(|| random_group(r, wants, depth - 1)),
+        compositing: groups.then(|| random_compositing(r, wants, depth - 1)),
         body: random_nodes(r, wants, depth - 1),
     })
 }
@@ -125,7 +125,7 @@ fn random_clip(r: &mut Random, depth: u32) -> Clip {
     }
 }
 
-fn random_group(r: &mut Random, wants: Wants, depth: u32) -> Group {
+fn random_compositing(r: &mut Random, wants: Wants, depth: u32) -> Compositing {
     let isolated = r.below(2) == 0;
     let blends = wants.blends && isolated;
     let masks = if depth > 0 && r.below(3) == 0 {
@@ -137,7 +137,7 @@ fn random_group(r: &mut Random, wants: Wants, depth: u32) -> Group {
         kind: MaskKind::ALL[r.below(3) as usize],
         body: random_nodes(r, wants, depth.min(2) - 1),
     };
-    Group {
+    Compositing {
         isolated,
         mode: BlendMode::ALL[if blends { r.below(16) as usize } else { 0 }],
         opacity: if r.below(3) == 0 { 1.0 } else { r.unit() },

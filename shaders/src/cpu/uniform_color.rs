@@ -3,13 +3,13 @@
 use super::math::{clamp, to_f32, to_u32};
 use super::picture::{point, word_at};
 use super::{Lookup, Sampler, paint, segment};
-use crate::layout::{cell, filter, item};
+use crate::layout::{cell, cmd, filter};
 
 impl Sampler<'_> {
     /// The one colour, in linear light, premultiplied, that cells show to point lookups with uv in
     /// the box from `low` to `high`, inside the canvas before the texture matrix; `None` where they
     /// may show more.
-    pub fn flat_color(&self, low: [f32; 2], high: [f32; 2]) -> Option<[f32; 4]> {
+    pub fn uniform_color(&self, low: [f32; 2], high: [f32; 2]) -> Option<[f32; 4]> {
         let s = &self.settings;
         let place = |uv: [f32; 2]| [0, 1].map(|axis| uv[axis] * s.scale[axis] + s.offset[axis]);
         let span = [place(low), place(high)];
@@ -34,12 +34,12 @@ impl Sampler<'_> {
             [0, 1].map(|axis| clamp(p[axis], ends[0][axis], ends[1][axis]) - corner[axis])
         });
         let payload = word & cell::PAYLOAD_MASK;
-        let flat = match word >> cell::TAG_SHIFT {
-            cell::LIST | cell::GROUPS => self.is_flat(payload, low, high),
+        let uniform = match word >> cell::TAG_SHIFT {
+            cell::LIST | cell::GROUPS => self.is_uniform(payload, low, high),
             cell::SOLID => !self.varies(word & cell::PAINT_MASK),
             _ => true,
         };
-        if !flat {
+        if !uniform {
             return None;
         }
         let lookup = Lookup::new(self, [0.0; 2], [0.0; 4]);
@@ -52,32 +52,32 @@ impl Sampler<'_> {
     }
 
     /// Whether each entry of a list either fills the box or stays out of it.
-    fn is_flat(&self, offset: u32, low: [f32; 2], high: [f32; 2]) -> bool {
+    fn is_uniform(&self, offset: u32, low: [f32; 2], high: [f32; 2]) -> bool {
         let s = &self.settings;
         if s.filter != filter::POINT || s.outline {
             return false;
         }
-        let [units, reach] = s.curve_lattice;
-        let [low, high] = [low, high].map(|q| q.map(|q| q * units + reach));
-        let mut at = s.items.wrapping_add(offset.wrapping_mul(item::WORDS));
-        for _ in 0..item::LIMIT {
+        let [units, margin] = s.curve_lattice;
+        let [low, high] = [low, high].map(|q| q.map(|q| q * units + margin));
+        let mut at = s.commands.wrapping_add(offset.wrapping_mul(cmd::WORDS));
+        for _ in 0..cmd::LIMIT {
             let words: [u32; 4] = self.words(at);
-            let tail = words[3];
+            let tag = words[3];
             // Of a curve's segments only the last says what they are.
-            let kind = tail & item::KIND_MASK;
-            let end = tail & item::END_BIT != 0;
-            let full = end && kind == item::FULL;
-            if kind == item::MSDF || kind == item::IMAGE {
+            let kind = tag & cmd::KIND_MASK;
+            let end = tag & cmd::END_BIT != 0;
+            let full = end && kind == cmd::FULL;
+            if kind == cmd::MSDF || kind == cmd::IMAGE {
                 return false;
             }
-            if end && self.varies(tail & item::INDEX_MASK) {
+            if end && self.varies(tag & cmd::INDEX_MASK) {
                 return false;
             }
             if !full && !segment::is_constant(words, low, high) {
                 return false;
             }
-            at = at.wrapping_add(item::WORDS);
-            if tail & item::LAST_BIT != 0 || self.is_past(at) {
+            at = at.wrapping_add(cmd::WORDS);
+            if tag & cmd::LAST_BIT != 0 || self.is_past(at) {
                 break;
             }
         }

@@ -2,8 +2,8 @@
 
 use vtex_format::{CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CurveHeader};
 
-/// Units by which evaluators' f32 arithmetic may misplace a lookup, with room to spare: a part
-/// answers for lookups this far outside it.
+/// Units by which evaluators' f32 arithmetic may misplace a lookup, with some to spare: a part
+/// serves lookups this far outside it.
 const SLACK_UNITS: f64 = 1.0;
 
 /// A part of a cell's box, in units of the box.
@@ -48,14 +48,14 @@ enum Side {
 }
 
 impl Region {
-    /// It and what lies so near.
-    pub(super) fn grown(&self, by: f64) -> Self {
+    /// It with a border of this width.
+    pub(super) fn dilated(&self, by: f64) -> Self {
         let [x, y] = [self.x, self.y].map(|[low, high]| [low - by, high + by]);
         Self { x, y }
     }
 
     /// What it and `other` share.
-    pub(super) fn meet(&self, other: &Self) -> Self {
+    pub(super) fn intersection(&self, other: &Self) -> Self {
         let meet = |one: [f64; 2], other: [f64; 2]| [one[0].max(other[0]), one[1].min(other[1])];
         Self {
             x: meet(self.x, other.x),
@@ -168,7 +168,7 @@ impl Outline {
 
     /// What of it counts in `region`, a part of the region it is for.
     pub(super) fn within(&self, region: &Region) -> Self {
-        let near = region.grown(SLACK_UNITS);
+        let near = region.dilated(SLACK_UNITS);
         let mut inner = Self {
             base: self.base,
             changes: self.changes.clone(),
@@ -212,8 +212,8 @@ impl Outline {
         self.changes = kept;
     }
 
-    /// Items that it takes at least.
-    pub(super) fn item_count(&self) -> usize {
+    /// Commands that it takes at least.
+    pub(super) fn command_count(&self) -> usize {
         (self.segments.len() + self.changes.len()).max(1)
     }
 

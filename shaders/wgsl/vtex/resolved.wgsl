@@ -1,6 +1,6 @@
 // What samples see.
 
-struct VtexAnswer {
+struct VtexResolved {
     // The sum of their colours, in linear light, premultiplied.
     sum: vec4f,
     // The samples.
@@ -8,11 +8,11 @@ struct VtexAnswer {
 }
 
 // Through a signed integer, which processors convert at once.
-fn vtex_answer_count(samples: u32) -> f32 {
+fn vtex_resolved_count(samples: u32) -> f32 {
     return f32(bitcast<i32>(countOneBits(samples)));
 }
 
 // Samples that all see `color`.
-fn vtex_answer(color: vec4f, samples: u32) -> VtexAnswer {
-    return VtexAnswer(vtex_answer_count(samples) * color, samples);
+fn vtex_resolved(color: vec4f, samples: u32) -> VtexResolved {
+    return VtexResolved(vtex_resolved_count(samples) * color, samples);
 }

@@ -3,8 +3,8 @@
 use vtex_format::{Block, Entry, EntryKind, MAX_ENTRIES_PER_CELL, OPEN_ISOLATED, list_blocks};
 
 use super::clip::Clip;
+use super::commands::{Order, commands};
 use super::group::{Group, Mask};
-use super::items::{Order, items};
 use super::outline::{Outline, Region};
 
 /// An entry that draws, with its outline if it has one.
@@ -41,18 +41,18 @@ impl List {
                 break;
             }
         }
-        let source = Source { entries, curves };
-        let entries = &source.entries;
+        let stored = Stored { entries, curves };
+        let entries = &stored.entries;
         let draws = |at: &usize| entries[*at].kind.draws();
-        let flat = || (0..entries.len()).filter(draws).map(Block::Draw).collect();
+        let ungrouped = || (0..entries.len()).filter(draws).map(Block::Draw).collect();
         // What no validator lets in shows without what clips and groups it.
         let blocks = if (0..entries.len()).all(|at| draws(&at)) {
-            flat()
+            ungrouped()
         } else {
-            list_blocks(entries).unwrap_or_else(|_| flat())
+            list_blocks(entries).unwrap_or_else(|_| ungrouped())
         };
         Self {
-            nodes: source.nodes(&blocks),
+            nodes: stored.nodes(&blocks),
         }
     }
 
@@ -61,9 +61,9 @@ impl List {
         any_outline(&self.nodes)
     }
 
-    /// Items a lookup walks at most.
-    pub(super) fn item_count(&self) -> usize {
-        item_count(&self.nodes)
+    /// Commands a lookup walks at most.
+    pub(super) fn command_count(&self) -> usize {
+        command_count(&self.nodes)
     }
 
     /// What shows in `region`, a part of the region this is for.
@@ -91,9 +91,9 @@ impl List {
         self.nodes.is_empty()
     }
 
-    /// The items, four words each.
-    pub(super) fn items(&self, order: Order) -> Vec<[u32; 4]> {
-        items(&self.nodes, order)
+    /// The commands, four words each.
+    pub(super) fn commands(&self, order: Order) -> Vec<[u32; 4]> {
+        commands(&self.nodes, order)
     }
 }
 
@@ -113,12 +113,12 @@ pub(super) fn any_outline(nodes: &[Node]) -> bool {
     })
 }
 
-pub(super) fn item_count(nodes: &[Node]) -> usize {
+pub(super) fn command_count(nodes: &[Node]) -> usize {
     let of = |node: &Node| match node {
-        Node::Draw(part) => part.outline.as_ref().map_or(1, Outline::item_count),
-        Node::Clip(clip) => clip.item_count(),
-        // Each body lies between two items.
-        Node::Group(group) => group.bodies().map(|body| 2 + item_count(body)).sum(),
+        Node::Draw(part) => part.outline.as_ref().map_or(1, Outline::command_count),
+        Node::Clip(clip) => clip.command_count(),
+        // Each body lies between two commands.
+        Node::Group(group) => group.bodies().map(|body| 2 + command_count(body)).sum(),
     };
     nodes.iter().map(of).sum()
 }
@@ -167,12 +167,12 @@ impl Part {
 }
 
 /// What blocks name.
-struct Source<'a> {
+struct Stored<'a> {
     entries: Vec<Entry>,
     curves: &'a [u32],
 }
 
-impl Source<'_> {
+impl Stored<'_> {
     fn nodes(&self, blocks: &[Block]) -> Vec<Node> {
         blocks.iter().map(|block| self.node(block)).collect()
     }
@@ -185,10 +185,15 @@ impl Source<'_> {
                 let outline = has_record.then(|| self.outline(*at)).flatten();
                 Node::Draw(Part { entry, outline })
             }
-            Block::Clip { tests, body } => {
+            Block::Clip { branches, body } => {
                 let outline = |at| self.outline(at).unwrap_or_default();
-                let tests = tests.clone();
-                Node::Clip(Clip::new(&self.entries, tests, outline, self.nodes(body)))
+                let branches = branches.clone();
+                Node::Clip(Clip::new(
+                    &self.entries,
+                    branches,
+                    outline,
+                    self.nodes(body),
+                ))
             }
             Block::Group {
                 masks,

@@ -2,21 +2,21 @@
 
 use vtex_format::{Entry, EntryKind, OPEN_ISOLATED};
 
-use super::tree::{Clip, Group, Node, Scope};
+use super::tree::{Clip, Compositing, Group, Node};
 
 /// The entries of a list, none of them marked last or opaque; `places` are those of the records.
 ///
 /// # Panics
-/// When a list is longer than a jump.
+/// When a list is longer than a branch can lead.
 pub(super) fn entries(nodes: &[Node], places: &[u32]) -> Vec<Entry> {
     let mut writer = Writer {
         places,
         entries: Vec::new(),
-        jumps: Vec::new(),
+        branches: Vec::new(),
         labels: Vec::new(),
     };
     writer.nodes(nodes);
-    for &(from, label) in &writer.jumps {
+    for &(from, label) in &writer.branches {
         let over = writer.labels[label] - from - 1;
         writer.entries[from].index = u32::try_from(over).expect("short lists");
     }
@@ -26,8 +26,8 @@ pub(super) fn entries(nodes: &[Node], places: &[u32]) -> Vec<Entry> {
 struct Writer<'a> {
     places: &'a [u32],
     entries: Vec<Entry>,
-    /// Entries that jump, and the labels they jump to.
-    jumps: Vec<(usize, usize)>,
+    /// Entries that branch, and the labels they branch to.
+    branches: Vec<(usize, usize)>,
     /// Where labels stand.
     labels: Vec<usize>,
 }
@@ -65,26 +65,26 @@ impl Writer<'_> {
                         None => self.push(EntryKind::Full, paint, 0),
                     }
                 }
-                Node::Scope(scope) => self.scope(scope),
+                Node::Group(group) => self.group(group),
             }
         }
     }
 
-    fn scope(&mut self, scope: &Scope) {
+    fn group(&mut self, group: &Group) {
         let end = self.label();
-        if let Some(clip) = &scope.clip {
+        if let Some(clip) = &group.clip {
             let body = self.label();
             self.clip(clip, body, end);
             self.put(body);
         }
-        match &scope.group {
-            Some(group) => self.group(group, &scope.body),
-            None => self.nodes(&scope.body),
+        match &group.compositing {
+            Some(how) => self.composite(how, &group.body),
+            None => self.nodes(&group.body),
         }
         self.put(end);
     }
 
-    /// Tests that go on behind themselves, where `inside` will stand, or jump to a label.
+    /// Branches that fall through, to where `inside` will stand, or lead to a label.
     fn clip(&mut self, clip: &Clip, inside: usize, outside: usize) {
         if let Some(also) = &clip.also {
             let both = self.label();
@@ -101,28 +101,28 @@ impl Writer<'_> {
                 self.put(passes);
             }
             let to = if last { outside } else { inside };
-            self.jumps.push((self.entries.len(), to));
-            self.push(EntryKind::Test, 0, self.places[part.outline]);
-            if let Some(test) = self.entries.last_mut() {
-                test.opaque = !last;
+            self.branches.push((self.entries.len(), to));
+            self.push(EntryKind::Branch, 0, self.places[part.outline]);
+            if let Some(branch) = self.entries.last_mut() {
+                branch.opaque = !last;
             }
             self.put(next);
         }
     }
 
-    fn group(&mut self, group: &Group, body: &[Node]) {
+    fn composite(&mut self, how: &Compositing, body: &[Node]) {
         let end = self.label();
-        for mask in &group.masks {
+        for mask in &how.masks {
             self.push(EntryKind::Open, 0, OPEN_ISOLATED);
             self.nodes(&mask.body);
-            self.jumps.push((self.entries.len(), end));
+            self.branches.push((self.entries.len(), end));
             self.push(EntryKind::Mask, 0, mask.kind as u32);
         }
-        let isolated = if group.isolated { OPEN_ISOLATED } else { 0 };
+        let isolated = if how.isolated { OPEN_ISOLATED } else { 0 };
         self.push(EntryKind::Open, 0, isolated);
         self.nodes(body);
-        let mode = group.mode as u32;
-        self.push(EntryKind::Close, mode, group.opacity.to_bits());
+        let mode = how.mode as u32;
+        self.push(EntryKind::Close, mode, how.opacity.to_bits());
         self.put(end);
     }
 }

@@ -6,10 +6,10 @@ use rayon::prelude::*;
 use vtex_format::{BlendMode, VtexFile};
 use vtex_shaders::cpu::{Sampler, color};
 use vtex_shaders::{FilterMode, PackOptions, pack};
-use vtex_tests::random::Random;
-use vtex_tests::scopes::{
-    Clip, Drawing, Group, Lens, Node, Part, Scope, Wants, lattice, polygon_record,
+use vtex_tests::clips_and_groups::{
+    Clip, Compositing, Drawing, Group, Lens, Node, Part, Wants, lattice, polygon_record,
 };
+use vtex_tests::random::Random;
 
 /// Trees a drawing.
 const CELLS: u32 = 16;
@@ -38,7 +38,7 @@ const ALL: Wants = Wants {
 };
 
 /// What a drawing shows at `uv`.
-fn shown(drawing: &Drawing, uv: [f32; 2]) -> [f64; 4] {
+fn expected_color(drawing: &Drawing, uv: [f32; 2]) -> [f64; 4] {
     let x = uv[0] * CELLS as f32;
     let column = x.floor().clamp(0.0, (CELLS - 1) as f32);
     #[expect(
@@ -54,7 +54,7 @@ fn shown(drawing: &Drawing, uv: [f32; 2]) -> [f64; 4] {
 fn mean(drawing: &Drawing, places: &[[f32; 2]]) -> [f64; 4] {
     let mut sum = [0.0; 4];
     for &place in places {
-        let color = shown(drawing, place);
+        let color = expected_color(drawing, place);
         sum = std::array::from_fn(|i| sum[i] + color[i]);
     }
     sum.map(|channel| channel / places.len() as f64)
@@ -211,12 +211,12 @@ fn a_clips_edge_is_a_linear_average() {
         also: None,
     };
     for clip in [half(), twice, either] {
-        let scope = Scope {
+        let group = Group {
             clip: Some(clip),
-            group: None,
+            compositing: None,
             body: vec![shape.clone()],
         };
-        let file = half_plane(vec![Node::Scope(scope)]).file();
+        let file = half_plane(vec![Node::Group(group)]).file();
         let options = PackOptions {
             filter: FilterMode::Footprint,
             ..PackOptions::default()
@@ -249,9 +249,9 @@ fn a_clips_edge_is_a_linear_average() {
 #[test]
 fn a_groups_opacity_is_alpha() {
     for isolated in [false, true] {
-        let group = Scope {
+        let group = Group {
             clip: None,
-            group: Some(Group {
+            compositing: Some(Compositing {
                 isolated,
                 mode: BlendMode::Normal,
                 opacity: 0.5,
@@ -266,7 +266,7 @@ fn a_groups_opacity_is_alpha() {
             outline: None,
             paint: 1,
         };
-        let file = half_plane(vec![ground, Node::Scope(group)]).file();
+        let file = half_plane(vec![ground, Node::Group(group)]).file();
         let words = pack(&file, &PackOptions::default());
         let sampler = Sampler::new(&words);
         let [got, behind] = [0.25, 0.75].map(|u| sampler.sample([u, 0.5], [0.0; 4]));
