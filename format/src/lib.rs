@@ -66,7 +66,7 @@ pub use container::error::{ReadError, WriteError};
 pub use container::issue::{Fault, ISSUES, Issue, IssueKind};
 pub use container::layout::{MAX_SECTIONS, VERSION_MAJOR, VERSION_MINOR};
 pub use container::limits::Limits;
-pub use container::section::{Codec, SectionInfo};
+pub use container::section::{BundleInfo, Codec, SectionInfo};
 pub use container::tag::Tag;
 pub use curves::cut;
 pub use curves::outlines::{

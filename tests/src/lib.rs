@@ -6,6 +6,7 @@ pub mod clips_and_groups;
 pub mod fixture;
 pub mod fonts;
 pub mod gpu;
+pub mod hostile;
 pub mod parity;
 pub mod random;
 pub mod variants;

@@ -9,6 +9,8 @@ use crate::records::paint::PaintRecord;
 /// Version of the packed words and bindings shared by shaders and loaders. A file whose shader
 /// blob carries another ABI is evaluated with the runtime's own text.
 pub const SHADER_ABI: u32 = 2;
+/// Keys of files are read from this ABI on: they are the same features.
+pub(crate) const OLDEST_ABI: u32 = 2;
 
 /// What a specialised shader contains: a set of features. Same key, same text.
 ///
@@ -190,24 +192,6 @@ impl SpecKey {
     pub fn for_file(file: &VtexFile) -> Self {
         Self {
             features: Self::features_of(file) | (file.spec.features & Features::MIPS),
-        }
-    }
-
-    /// The key of a file of ABI 1, whose other words repeat META and lists. Features that ABI 1 does
-    /// not tell apart are set where a file may need them: that only costs time.
-    pub(crate) fn of_abi_1(features: u32, sampler: &SamplerSettings) -> Self {
-        let mapping = if sampler.is_mapped() {
-            Features::MAPPING
-        } else {
-            0
-        };
-        let deep = if features & Features::GROUPS != 0 {
-            Features::DEEP_GROUPS
-        } else {
-            0
-        };
-        Self {
-            features: features | mapping | deep,
         }
     }
 

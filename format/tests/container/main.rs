@@ -13,3 +13,4 @@ mod keys;
 mod outlined;
 mod roundtrip;
 mod sample;
+mod versions;
