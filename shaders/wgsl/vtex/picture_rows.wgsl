@@ -6,14 +6,16 @@
 //!use vtex/samples
 //!use vtex/resolved
 //!use vtex/lists
-// The mean of what the cells show to a footprint's samples. Each pass takes the samples in one fine
-// cell, or in a square of such as show the same, or those beyond one side of the canvas, which do not
-// count. The first pass is that of the lookup's own place, and mostly the only one.
+// The mean of what the cells show to a footprint's samples. Each pass takes the samples in one cell of
+// the packed words, or in a square around it that shows the same, or those beyond one side of the
+// canvas, which do not count. The first pass is that of the lookup's own place, and mostly the only one.
 
 // Farther than any place in cells.
 const VTEX_PICTURE_FAR: f32 = 1e30;
-// By how much of its side the list of a fine cell goes beyond it.
+// By how much of its side the list of a cell goes beyond it.
 const VTEX_PICTURE_OVERLAP: f32 = f32(VTEX_CELL_OVERLAP) / 16.0;
+// What of its side a cell's clearance is counted in.
+const VTEX_PICTURE_PART: f32 = 1.0 / f32(VTEX_CELL_CLEARANCE_PARTS);
 
 // Linear light, premultiplied.
 fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
@@ -32,19 +34,20 @@ fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
     var place = centre;
     var own = 0u;
     for (var i = 0u; i <= VTEX_ROWS_SAMPLES; i += 1u) {
-        let fine = vtex_cell_fine(vt, place + home);
-        let word = vtex_cell_word(vt, fine);
+        let found = vtex_cell(vt, place + home);
+        let side = vtex_cell_side(found);
+        let word = found.word;
         let tag = word >> VTEX_CELL_TAG_SHIFT;
-        let corner = fine * vt.fine.w - home;
-        let cell = floor(fine * vt.fine.w) - home;
+        let corner = found.at * side - home;
+        let cell = vtex_cell_corner(vt, place + home) - home;
         // A list serves what is near, as far as its cell of the file goes.
         let listed = tag >= VTEX_CELL_LIST;
         let clearance = f32(bitcast<i32>((word >> VTEX_CELL_CLEARANCE_SHIFT) & VTEX_CELL_CLEARANCE_MASK));
-        let around = select(clearance, VTEX_PICTURE_OVERLAP, listed) * vt.fine.w;
+        let around = select(clearance * VTEX_PICTURE_PART, VTEX_PICTURE_OVERLAP, listed) * side;
         let bounds_low = select(canvas_low, max(canvas_low, cell), vec2<bool>(listed));
         let bounds_high = select(canvas_high, min(canvas_high, cell + 1.0), vec2<bool>(listed));
         var low = max(corner - around, bounds_low);
-        var high = min(corner + around + vt.fine.w, bounds_high);
+        var high = min(corner + around + side, bounds_high);
         // All samples are in one square: no need to look for them.
         let whole = all(low <= centre - extent) && all(centre + extent < high);
         let before = place < canvas_low;

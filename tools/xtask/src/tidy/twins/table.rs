@@ -5,8 +5,6 @@ pub(super) const OTHERWISE: &[(&str, &str, &str)] = &[
     ("edge.rs", "is_branch", "vtex_groups_is_branch"),
     ("edge.rs", "within", "vtex_msdf_covered"),
     ("image.rs", "new", "vtex_image_region"),
-    ("picture.rs", "fine_cell", "vtex_cell_fine"),
-    ("picture.rs", "word_at", "vtex_cell_word"),
     ("rows.rs", "new", "vtex_samples_of_rows"),
     ("sample.rs", "sample", "vtex_sample_at"),
     ("settings.rs", "read", "vtex_texture"),

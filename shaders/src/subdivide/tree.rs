@@ -1,0 +1,178 @@
+//! A cell of the file, divided as deep as its content is worth.
+
+use super::depth::{Model, Sums, count};
+use super::dilated;
+use super::list::List;
+use super::outline::Region;
+use crate::layout::{FilterMode, has_list};
+
+/// A square of the picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Tree {
+    /// It has one word.
+    Leaf(u32),
+    /// Its quarters, row by row.
+    Split(Box<[Tree; 4]>),
+}
+
+impl Tree {
+    /// How often it is halved.
+    pub(super) fn depth(&self) -> u32 {
+        match self {
+            Self::Leaf(_) => 0,
+            Self::Split(quarters) => 1 + quarters.iter().map(Self::depth).max().unwrap_or(0),
+        }
+    }
+
+    /// The part of it in column and row `at` of `2^depth`.
+    pub(super) fn part(&self, depth: u32, at: [usize; 2]) -> &Self {
+        match self {
+            Self::Split(quarters) if depth > 0 => {
+                let bit = |axis: usize| at[axis] >> (depth - 1) & 1;
+                quarters[2 * bit(1) + bit(0)].part(depth - 1, at)
+            }
+            _ => self,
+        }
+    }
+
+    /// The word where nothing else shows.
+    pub(super) fn word(&self) -> Option<u32> {
+        match self {
+            Self::Leaf(word) => Some(*word),
+            Self::Split(_) => None,
+        }
+    }
+
+    /// Writes it into the square of `2^depth` words at `at`, in rows of `pitch`.
+    pub(super) fn fill(&self, words: &mut [u32], pitch: usize, [x, y]: [usize; 2], depth: u32) {
+        match self {
+            Self::Split(quarters) if depth > 0 => {
+                let half = 1 << (depth - 1);
+                let corners = [[x, y], [x + half, y], [x, y + half], [x + half, y + half]];
+                for (quarter, corner) in quarters.iter().zip(corners) {
+                    quarter.fill(words, pitch, corner, depth - 1);
+                }
+            }
+            Self::Split(_) => {}
+            Self::Leaf(word) => {
+                for row in y..y + (1 << depth) {
+                    words[row * pitch + x..][..1 << depth].fill(*word);
+                }
+            }
+        }
+    }
+}
+
+/// A part of a cell on the way to a tree.
+struct Part {
+    list: List,
+    region: Region,
+    /// Place of the first of four quarters.
+    quarters: Option<usize>,
+}
+
+/// Divides a list that `uses` cells show; `word` gives the word of a list.
+pub(super) fn tree(
+    list: List,
+    whole: &Region,
+    filter: FilterMode,
+    model: &Model,
+    uses: usize,
+    word: &mut impl FnMut(&List) -> u32,
+) -> Tree {
+    let mut parts = vec![Part {
+        list,
+        region: *whole,
+        quarters: None,
+    }];
+    divide(&mut parts, whole, filter, model, uses);
+    let merges = |word: u32| filter != FilterMode::Footprint || !has_list(word);
+    finish(&parts, 0, &merges, word)
+}
+
+/// Divides the one of `parts`, level by level, and takes back what is not worth it.
+fn divide(
+    parts: &mut Vec<Part>,
+    whole: &Region,
+    filter: FilterMode,
+    model: &Model,
+    uses: usize,
+) {
+    // Of what has no outline the same list serves all parts.
+    let mut settled = Sums::default();
+    let sums = |parts: &[Part], front: &[usize], settled: Sums, share: f64| {
+        let commands = front.iter().map(|&at| commands(&parts[at].list));
+        let stored: f64 = commands.sum();
+        Sums {
+            walked: settled.walked + share * stored,
+            stored: settled.stored + stored,
+        }
+    };
+    let mut front = vec![0];
+    let mut share = 1.0;
+    let mut search = model.search(sums(parts, &front, settled, share), uses);
+    let mut levels = Vec::new();
+    for depth in 1..=model.max_depth {
+        let length = parts.len();
+        let (outlined, plain): (Vec<usize>, Vec<usize>) = front
+            .iter()
+            .partition(|&&at| parts[at].list.has_outlines());
+        settled = sums(parts, &plain, settled, share);
+        if outlined.is_empty() {
+            break;
+        }
+        share *= 0.25;
+        front.clear();
+        for &at in &outlined {
+            parts[at].quarters = Some(parts.len());
+            for region in parts[at].region.quarters() {
+                let list = parts[at].list.within(&dilated(&region, whole, filter));
+                front.push(parts.len());
+                parts.push(Part {
+                    list,
+                    region,
+                    quarters: None,
+                });
+            }
+        }
+        levels.push((length, outlined));
+        if !search.visit(depth, sums(parts, &front, settled, share)) {
+            break;
+        }
+    }
+    if let Some((length, outlined)) = levels.get(search.best_depth as usize) {
+        parts.truncate(*length);
+        for &at in outlined {
+            parts[at].quarters = None;
+        }
+    }
+}
+
+fn commands(list: &List) -> f64 {
+    if list.solid().is_some() {
+        0.0
+    } else {
+        count(list.command_count())
+    }
+}
+
+/// The tree of a part. Quarters that show the same become one where `merges` says so of their word:
+/// in footprint mode a list serves what lies around it as far as the side of its own cell says.
+fn finish(
+    parts: &[Part],
+    at: usize,
+    merges: &impl Fn(u32) -> bool,
+    word: &mut impl FnMut(&List) -> u32,
+) -> Tree {
+    let part = &parts[at];
+    let Some(first) = part.quarters else {
+        return Tree::Leaf(word(&part.list));
+    };
+    let quarters = [0, 1, 2, 3].map(|quarter| finish(parts, first + quarter, merges, word));
+    match quarters[0].word() {
+        Some(word) if merges(word) && quarters.iter().all(|quarter| *quarter == quarters[0]) => {
+            Tree::Leaf(word)
+        }
+        _ => Tree::Split(Box::new(quarters)),
+    }
+}
