@@ -15,19 +15,19 @@ mod depth;
 mod grid;
 mod group;
 mod list;
+mod lists;
 mod outline;
 mod tree;
 
 use std::collections::HashMap;
-use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 
 use vtex_format::{CellWord, VtexFile};
 
 use crate::layout::{FilterMode, cell};
-use commands::Order;
 use depth::Model;
 use grid::{Grid, Picture};
 use list::List;
+use lists::Lists;
 use outline::Region;
 use tree::{Tree, tree};
 
@@ -86,11 +86,11 @@ fn divide(file: &VtexFile, filter: FilterMode, model: &Model) -> Option<Subdivis
                 Some(CellWord::List { offset_words }) => {
                     let list = list_of(file, offset_words);
                     let uses = uses.get(&word).copied().unwrap_or(1);
-                    tree(list, &whole, filter, model, uses, &mut |list| {
-                        lists.word(list)
-                    })
+                    tree(list, &whole, filter, model, uses, &mut lists)
                 }
-                Some(CellWord::Paint { paint }) => Tree::Leaf(cell::SOLID << cell::TAG_SHIFT | paint),
+                Some(CellWord::Paint { paint }) => {
+                    Tree::Leaf(cell::SOLID << cell::TAG_SHIFT | paint)
+                }
                 _ => Tree::Leaf(cell::EMPTY),
             };
             let next = picture.trees.len();
@@ -136,45 +136,6 @@ fn dilated(fine: &Region, whole: &Region, filter: FilterMode) -> Region {
 fn list_of(file: &VtexFile, offset_words: u32) -> List {
     let words = file.entries.get(offset_words as usize..).unwrap_or(&[]);
     List::decode(words, &file.curves)
-}
-
-/// Lists' commands, each list once.
-#[derive(Default)]
-struct Lists {
-    commands: Vec<[u32; 4]>,
-    /// First commands of lists by a hash of all. Of two with one hash the first is shared.
-    known: HashMap<u64, u32>,
-}
-
-impl Lists {
-    /// The word of a cell that shows `list`.
-    fn word(&mut self, list: &List) -> u32 {
-        if list.is_empty() {
-            return cell::EMPTY;
-        }
-        if let Some(paint) = list.solid() {
-            return cell::SOLID << cell::TAG_SHIFT | paint;
-        }
-        let (tag, order) = if list.has_groups() {
-            (cell::GROUPS, Order::BackToFront)
-        } else {
-            (cell::LIST, Order::FrontToBack)
-        };
-        let first = self.place(&list.commands(order));
-        tag << cell::TAG_SHIFT | first.min(cell::PAYLOAD_MASK)
-    }
-
-    fn place(&mut self, commands: &[[u32; 4]]) -> u32 {
-        let mut hasher = DefaultHasher::new();
-        commands.hash(&mut hasher);
-        let next = u32::try_from(self.commands.len()).unwrap_or(cell::PAYLOAD_MASK);
-        let known = *self.known.entry(hasher.finish()).or_insert(next);
-        if known != next && self.commands[known as usize..].starts_with(commands) {
-            return known;
-        }
-        self.commands.extend(commands);
-        next
-    }
 }
 
 #[cfg(test)]

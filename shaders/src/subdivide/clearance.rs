@@ -167,7 +167,11 @@ fn axis_strip(neighbour: usize, at: usize) -> Beside {
 /// How many parts of a neighbour's side, from the common side or corner, show `word` alone.
 fn strip(grid: &Grid, base: [usize; 2], beside: [Beside; 2], word: u32) -> u32 {
     let Some(block) = grid.block_at(base) else {
-        return if grid.base_word(base) == word { PARTS } else { 0 };
+        return if grid.base_word(base) == word {
+            PARTS
+        } else {
+            0
+        };
     };
     let pitch = block.pitch();
     let range = |beside: Beside, count: usize| -> Range<usize> {
@@ -180,7 +184,9 @@ fn strip(grid: &Grid, base: [usize; 2], beside: [Beside; 2], word: u32) -> u32 {
     let shows = |count: usize| {
         range(beside[1], count).all(|y| {
             let row = &grid.words[block.first + y * pitch..][..pitch];
-            row[range(beside[0], count)].iter().all(|&other| other == word)
+            row[range(beside[0], count)]
+                .iter()
+                .all(|&other| other == word)
         })
     };
     let count = (1..=pitch).take_while(|&count| shows(count)).count();
@@ -276,13 +282,14 @@ mod tests {
             split([corner(), solid(0), solid(1), list()]),
         ];
         let size = [19, 14];
-        let cells = places(size).map(|at| match at {
-            [9, 7] | [12, 8..] => 3,
-            [x, y] if x > 14 && y > 9 => 2,
-            [14, 4] => 4,
-            [15, 2..9] => 5,
-            [3, 9] => 6,
-            [0..2, _] => 0,
+        let cells = places(size).map(|[x, y]| match (x, y) {
+            (9, 7) => 3,
+            (3, 9) => 6,
+            (14, 4) => 4,
+            (15, 2..=8) => 5,
+            (12, y) if y >= 8 => 3,
+            (x, y) if x > 14 && y > 9 => 2,
+            (x, _) if x < 2 => 0,
             _ => 1,
         });
         Picture {
@@ -329,14 +336,19 @@ mod tests {
                     let depth = count.ilog2();
                     let word = marked.word_in(base, depth, at);
                     let clearance = (word >> cell::CLEARANCE_SHIFT & cell::CLEARANCE_MASK) as usize;
-                    assert_eq!(word & !(cell::CLEARANCE_MASK << cell::CLEARANCE_SHIFT), words[y * pitch + x]);
+                    assert_eq!(
+                        word & !(cell::CLEARANCE_MASK << cell::CLEARANCE_SHIFT),
+                        words[y * pitch + x]
+                    );
                     let around = clearance * own / PARTS as usize;
                     let reach = |from: usize, size: usize| {
                         from.saturating_sub(around)..size.min(from + own + around)
                     };
                     let shows = reach(y, size[1]).all(|row| {
                         let row = &words[row * pitch..][..pitch];
-                        row[reach(x, size[0])].iter().all(|&other| other == words[y * pitch + x])
+                        row[reach(x, size[0])]
+                            .iter()
+                            .all(|&other| other == words[y * pitch + x])
                     });
                     assert!(shows, "side {side}, {base:?}, {at:?}: {clearance}");
                     most = most.max(around);
@@ -359,7 +371,8 @@ mod tests {
         };
         let mut grid = picture.grid_of(0).unwrap();
         write(&mut grid);
-        let clearances = [0, 1, 2].map(|x| grid.base_word([x, 0]) >> cell::CLEARANCE_SHIFT & cell::CLEARANCE_MASK);
+        let clearances = [0, 1, 2]
+            .map(|x| grid.base_word([x, 0]) >> cell::CLEARANCE_SHIFT & cell::CLEARANCE_MASK);
         assert_eq!(clearances, [20, 12, 4]);
     }
 

@@ -1,8 +1,11 @@
 //! A cell of the file, divided as deep as its content is worth.
 
+use std::collections::HashSet;
+
 use super::depth::{Model, Sums, count};
 use super::dilated;
 use super::list::List;
+use super::lists::{Lists, Shown};
 use super::outline::Region;
 use crate::layout::{FilterMode, has_list};
 
@@ -66,58 +69,53 @@ impl Tree {
 /// A part of a cell on the way to a tree.
 struct Part {
     list: List,
+    shown: Shown,
     region: Region,
     /// Place of the first of four quarters.
     quarters: Option<usize>,
 }
 
-/// Divides a list that `uses` cells show; `word` gives the word of a list.
+impl Part {
+    fn new(list: List, region: Region) -> Self {
+        Self {
+            shown: Shown::of(&list),
+            list,
+            region,
+            quarters: None,
+        }
+    }
+}
+
+/// Divides a list that `uses` cells show.
 pub(super) fn tree(
     list: List,
     whole: &Region,
     filter: FilterMode,
     model: &Model,
     uses: usize,
-    word: &mut impl FnMut(&List) -> u32,
+    lists: &mut Lists,
 ) -> Tree {
-    let mut parts = vec![Part {
-        list,
-        region: *whole,
-        quarters: None,
-    }];
+    let mut parts = vec![Part::new(list, *whole)];
     divide(&mut parts, whole, filter, model, uses);
     let merges = |word: u32| filter != FilterMode::Footprint || !has_list(word);
-    finish(&parts, 0, &merges, word)
+    finish(&parts, 0, &merges, lists)
 }
 
 /// Divides the one of `parts`, level by level, and takes back what is not worth it.
-fn divide(
-    parts: &mut Vec<Part>,
-    whole: &Region,
-    filter: FilterMode,
-    model: &Model,
-    uses: usize,
-) {
+fn divide(parts: &mut Vec<Part>, whole: &Region, filter: FilterMode, model: &Model, uses: usize) {
     // Of what has no outline the same list serves all parts.
     let mut settled = Sums::default();
-    let sums = |parts: &[Part], front: &[usize], settled: Sums, share: f64| {
-        let commands = front.iter().map(|&at| commands(&parts[at].list));
-        let stored: f64 = commands.sum();
-        Sums {
-            walked: settled.walked + share * stored,
-            stored: settled.stored + stored,
-        }
-    };
+    let mut kept = HashSet::new();
     let mut front = vec![0];
     let mut share = 1.0;
-    let mut search = model.search(sums(parts, &front, settled, share), uses);
+    let first = settled.with(parts, &front, share, &mut HashSet::new());
+    let mut search = model.search(first, uses);
     let mut levels = Vec::new();
     for depth in 1..=model.max_depth {
         let length = parts.len();
-        let (outlined, plain): (Vec<usize>, Vec<usize>) = front
-            .iter()
-            .partition(|&&at| parts[at].list.has_outlines());
-        settled = sums(parts, &plain, settled, share);
+        let (outlined, plain): (Vec<usize>, Vec<usize>) =
+            front.iter().partition(|&&at| parts[at].list.has_outlines());
+        settled = settled.with(parts, &plain, share, &mut kept);
         if outlined.is_empty() {
             break;
         }
@@ -128,15 +126,12 @@ fn divide(
             for region in parts[at].region.quarters() {
                 let list = parts[at].list.within(&dilated(&region, whole, filter));
                 front.push(parts.len());
-                parts.push(Part {
-                    list,
-                    region,
-                    quarters: None,
-                });
+                parts.push(Part::new(list, region));
             }
         }
         levels.push((length, outlined));
-        if !search.visit(depth, sums(parts, &front, settled, share)) {
+        let sums = settled.with(parts, &front, share, &mut kept.clone());
+        if !search.visit(depth, sums) {
             break;
         }
     }
@@ -148,27 +143,29 @@ fn divide(
     }
 }
 
-fn commands(list: &List) -> f64 {
-    if list.solid().is_some() {
-        0.0
-    } else {
-        count(list.command_count())
+impl Sums {
+    /// With the lists of some parts; `seen` has the hashes of those that are stored already.
+    fn with(mut self, parts: &[Part], some: &[usize], share: f64, seen: &mut HashSet<u64>) -> Self {
+        for &at in some {
+            if let Shown::List { commands, hash, .. } = &parts[at].shown {
+                self.walked += share * count(commands.len());
+                if seen.insert(*hash) {
+                    self.stored += count(commands.len());
+                }
+            }
+        }
+        self
     }
 }
 
 /// The tree of a part. Quarters that show the same become one where `merges` says so of their word:
 /// in footprint mode a list serves what lies around it as far as the side of its own cell says.
-fn finish(
-    parts: &[Part],
-    at: usize,
-    merges: &impl Fn(u32) -> bool,
-    word: &mut impl FnMut(&List) -> u32,
-) -> Tree {
+fn finish(parts: &[Part], at: usize, merges: &impl Fn(u32) -> bool, lists: &mut Lists) -> Tree {
     let part = &parts[at];
     let Some(first) = part.quarters else {
-        return Tree::Leaf(word(&part.list));
+        return Tree::Leaf(lists.word(&part.shown));
     };
-    let quarters = [0, 1, 2, 3].map(|quarter| finish(parts, first + quarter, merges, word));
+    let quarters = [0, 1, 2, 3].map(|quarter| finish(parts, first + quarter, merges, lists));
     match quarters[0].word() {
         Some(word) if merges(word) && quarters.iter().all(|quarter| *quarter == quarters[0]) => {
             Tree::Leaf(word)
