@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use vtex_format::{Entry, branch_target};
 
-use super::list::{Node, any_outline, command_count, within};
+use super::list::{Node, any_outline, within};
 use super::outline::{Outline, Region};
 
 /// Blocks behind branches.
@@ -60,11 +60,6 @@ impl Clip {
 
     pub(super) fn has_outlines(&self) -> bool {
         self.branches.iter().any(|branch| branch.outline.is_some()) || any_outline(&self.body)
-    }
-
-    pub(super) fn command_count(&self) -> usize {
-        let of = |branch: &Branch| branch.outline.as_ref().map_or(1, Outline::command_count);
-        self.branches.iter().map(of).sum::<usize>() + command_count(&self.body)
     }
 
     /// What shows in a region: nothing, this clip with fewer branches, or its body without any.

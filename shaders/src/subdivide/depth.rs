@@ -16,13 +16,11 @@ const COMMAND_COST: f64 = 0.27;
 const FOOTPRINT_COMMAND_COST: f64 = 0.45;
 /// Cost of reading a second word.
 const BLOCK_COST: f64 = 0.05;
-/// Cost of a MiB. What it is worth in time is a judgement: each must save a mean lookup a command
-/// in fourteen.
-const MIB_COST: f64 = 0.02;
+/// Cost of a MiB. What it is worth in time is a judgement: each must save a mean lookup two commands
+/// in nine (docs/decisions/0019 has other values).
+const MIB_COST: f64 = 0.06;
 /// No texture takes more bytes of words and commands than this, unless the file's own cells do.
 pub(super) const MAX_BYTES: usize = 48 << 20;
-/// Depths that a search goes on for without finding a better one.
-const PATIENCE: u32 = 1;
 
 /// What decides depths.
 #[derive(Clone, Copy, Debug)]
@@ -113,7 +111,9 @@ impl Search {
             self.best_cost = cost;
             self.best_depth = depth;
         }
-        depth < self.model.max_depth && depth - self.best_depth <= PATIENCE
+        // The first block costs a second word for what the next depths gain.
+        let patience = if self.best_depth == 0 { 1 } else { 0 };
+        depth < self.model.max_depth && depth - self.best_depth <= patience
     }
 }
 

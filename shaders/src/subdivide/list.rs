@@ -61,11 +61,6 @@ impl List {
         any_outline(&self.nodes)
     }
 
-    /// Commands a lookup walks at most.
-    pub(super) fn command_count(&self) -> usize {
-        command_count(&self.nodes)
-    }
-
     /// What shows in `region`, a part of the region this is for.
     pub(super) fn within(&self, region: &Region) -> Self {
         Self {
@@ -111,16 +106,6 @@ pub(super) fn any_outline(nodes: &[Node]) -> bool {
         Node::Clip(clip) => clip.has_outlines(),
         Node::Group(group) => group.bodies().any(|body| any_outline(body)),
     })
-}
-
-pub(super) fn command_count(nodes: &[Node]) -> usize {
-    let of = |node: &Node| match node {
-        Node::Draw(part) => part.outline.as_ref().map_or(1, Outline::command_count),
-        Node::Clip(clip) => clip.command_count(),
-        // Each body lies between two commands.
-        Node::Group(group) => group.bodies().map(|body| 2 + command_count(body)).sum(),
-    };
-    nodes.iter().map(of).sum()
 }
 
 /// What of `nodes` shows in a region, as far as the first that hides all behind it.

@@ -212,11 +212,6 @@ impl Outline {
         self.changes = kept;
     }
 
-    /// Commands that it takes at least.
-    pub(super) fn command_count(&self) -> usize {
-        (self.segments.len() + self.changes.len()).max(1)
-    }
-
     /// Whether no lookup of the region meets an edge.
     pub(super) fn is_uniform(&self) -> bool {
         self.segments.is_empty() && self.changes.is_empty()
