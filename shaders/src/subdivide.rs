@@ -19,7 +19,7 @@ mod lists;
 mod outline;
 mod tree;
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use vtex_format::{CellWord, VtexFile};
 
@@ -68,7 +68,7 @@ pub(crate) fn subdivide(file: &VtexFile, filter: FilterMode, halvings: Option<u3
 
 /// `None` where the words cannot name all blocks.
 fn divide(file: &VtexFile, filter: FilterMode, model: &Model) -> Option<Subdivision> {
-    let mut uses: HashMap<u32, usize> = HashMap::new();
+    let mut uses: BTreeMap<u32, usize> = BTreeMap::new();
     for &word in &file.cells {
         *uses.entry(word).or_default() += 1;
     }
@@ -78,8 +78,8 @@ fn divide(file: &VtexFile, filter: FilterMode, model: &Model) -> Option<Subdivis
         size: file.meta.grid.size_cells.map(|count| count as usize),
         ..Picture::default()
     };
-    let mut known: HashMap<u32, usize> = HashMap::new();
-    let mut leaves: HashMap<u32, usize> = HashMap::new();
+    let mut known: BTreeMap<u32, usize> = BTreeMap::new();
+    let mut leaves: BTreeMap<u32, usize> = BTreeMap::new();
     for &word in &file.cells {
         let index = known.entry(word).or_insert_with(|| {
             let tree = match CellWord::decode(word) {

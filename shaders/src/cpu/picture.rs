@@ -169,10 +169,10 @@ impl Canvas {
             whole: true,
             beyond: false,
         };
-        for i in 0..2 {
+        for (i, &cell) in cell.iter().enumerate() {
             if listed {
-                pass.low[i] = pass.low[i].max(cell[i]);
-                pass.high[i] = pass.high[i].min(cell[i] + 1.0);
+                pass.low[i] = pass.low[i].max(cell);
+                pass.high[i] = pass.high[i].min(cell + 1.0);
             }
             let corner = found.at[i] * side - self.home[i];
             pass.low[i] = pass.low[i].max(corner - around);

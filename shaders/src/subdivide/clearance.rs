@@ -190,7 +190,7 @@ fn strip(grid: &Grid, base: [usize; 2], beside: [Beside; 2], word: u32) -> u32 {
         })
     };
     let count = (1..=pitch).take_while(|&count| shows(count)).count();
-    u32::try_from(count).unwrap_or(0) * PARTS >> block.depth
+    (u32::try_from(count).unwrap_or(0) * PARTS) >> block.depth
 }
 
 /// Lets distances grow by no more than `step` from a cell to the next. Rows have `pitch` cells.

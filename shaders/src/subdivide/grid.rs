@@ -1,6 +1,6 @@
 //! Base cells and blocks: the words that evaluators read for the trees of the file's cells.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::tree::Tree;
 use crate::layout::{cell, has_list};
@@ -215,7 +215,7 @@ pub(super) fn places([columns, rows]: [usize; 2]) -> impl Iterator<Item = [usize
 /// Base cells, and blocks behind them, no two alike.
 struct Blocks {
     words: Vec<u32>,
-    known: HashMap<Vec<u32>, u32>,
+    known: BTreeMap<Vec<u32>, u32>,
 }
 
 impl Blocks {
@@ -223,7 +223,7 @@ impl Blocks {
         let group = cell::BLOCK_WORDS as usize;
         Self {
             words: vec![0; base.next_multiple_of(group)],
-            known: HashMap::new(),
+            known: BTreeMap::new(),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The commands of all lists.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use super::commands::Order;
 use super::list::List;
@@ -49,7 +49,7 @@ impl Shown {
 pub(super) struct Lists {
     pub(super) commands: Vec<[u32; 4]>,
     /// First commands of lists by the hash of all. Of two with one hash the first is shared.
-    known: HashMap<u64, u32>,
+    known: BTreeMap<u64, u32>,
 }
 
 impl Lists {

@@ -1,6 +1,6 @@
 //! A cell of the file, divided as deep as its content is worth.
 
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 
 use super::depth::{Model, Sums, count};
 use super::dilated;
@@ -15,7 +15,7 @@ pub(super) enum Tree {
     /// It has one word.
     Leaf(u32),
     /// Its quarters, row by row.
-    Split(Box<[Tree; 4]>),
+    Split(Box<[Self; 4]>),
 }
 
 impl Tree {
@@ -105,10 +105,10 @@ pub(super) fn tree(
 fn divide(parts: &mut Vec<Part>, whole: &Region, filter: FilterMode, model: &Model, uses: usize) {
     // Of what has no outline the same list serves all parts.
     let mut settled = Sums::default();
-    let mut kept = HashSet::new();
+    let mut kept = BTreeSet::new();
     let mut front = vec![0];
     let mut share = 1.0;
-    let first = settled.with(parts, &front, share, &mut HashSet::new());
+    let first = settled.with(parts, &front, share, &mut BTreeSet::new());
     let mut search = model.search(first, uses);
     let mut levels = Vec::new();
     for depth in 1..=model.max_depth {
@@ -145,7 +145,7 @@ fn divide(parts: &mut Vec<Part>, whole: &Region, filter: FilterMode, model: &Mod
 
 impl Sums {
     /// With the lists of some parts; `seen` has the hashes of those that are stored already.
-    fn with(mut self, parts: &[Part], some: &[usize], share: f64, seen: &mut HashSet<u64>) -> Self {
+    fn with(mut self, parts: &[Part], some: &[usize], share: f64, seen: &mut BTreeSet<u64>) -> Self {
         for &at in some {
             if let Shown::List { commands, hash, .. } = &parts[at].shown {
                 self.walked += share * count(commands.len());
