@@ -145,7 +145,13 @@ fn divide(parts: &mut Vec<Part>, whole: &Region, filter: FilterMode, model: &Mod
 
 impl Sums {
     /// With the lists of some parts; `seen` has the hashes of those that are stored already.
-    fn with(mut self, parts: &[Part], some: &[usize], share: f64, seen: &mut BTreeSet<u64>) -> Self {
+    fn with(
+        mut self,
+        parts: &[Part],
+        some: &[usize],
+        share: f64,
+        seen: &mut BTreeSet<u64>,
+    ) -> Self {
         for &at in some {
             if let Shown::List { commands, hash, .. } = &parts[at].shown {
                 self.walked += share * count(commands.len());
