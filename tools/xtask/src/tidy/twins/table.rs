@@ -18,6 +18,11 @@ pub(super) const OTHERWISE: &[(&str, &str, &str)] = &[
 /// File of `cpu/`, its functions, and why WGSL has none.
 pub(super) const ONLY_RUST: &[(&str, &[&str], &str)] = &[
     (
+        "cell.rs",
+        &["ends", "ends_of", "per_cell"],
+        "for the colour of a part of the canvas, which only the baker asks for",
+    ),
+    (
         "color.rs",
         &["apply_straight", "decode_channel", "encode_channel"],
         "WGSL has vectors and select",
