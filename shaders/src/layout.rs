@@ -150,6 +150,8 @@ mod cell = "CELL" {
     PLACE_MASK = (1 << DEPTH_SHIFT) - 1;
     /// Each block takes a multiple of so many words.
     BLOCK_WORDS = 4;
+    /// Position of a float's exponent: a depth added there multiplies by 2^depth.
+    EXPONENT_SHIFT = f32::MANTISSA_DIGITS - 1;
     /// Tag of an empty cell.
     EMPTY = 0;
     /// Tag of a cell of one colour.

@@ -105,6 +105,12 @@ fn divide(file: &VtexFile, filter: FilterMode, model: &Model) -> Option<Subdivis
         });
         picture.cells.push(*index);
     }
+    // As many cells as the grid has, which only a file that no validator lets in has not.
+    let cells = picture.size[0] * picture.size[1];
+    if picture.cells.len() < cells {
+        picture.cells.resize(cells, picture.trees.len());
+        picture.trees.push(Tree::Leaf(cell::EMPTY));
+    }
     Some(Subdivision {
         grid: picture.grid()?,
         commands: lists.commands,

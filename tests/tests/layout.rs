@@ -13,11 +13,12 @@ fn key(features: u32) -> SpecKey {
 }
 
 /// Numbers that are no integers; tests of parity hold them against Rust's.
-const FLOATS: [&str; 4] = [
+const FLOATS: [&str; 5] = [
     "VTEX_ROWS_LEAST",
     "VTEX_ROWS_MOST",
     "VTEX_PICTURE_FAR",
     "VTEX_PICTURE_OVERLAP",
+    "VTEX_PICTURE_PART",
 ];
 
 /// Named constants of a module that are not of its key; all but those of [`FLOATS`] are `u32`.

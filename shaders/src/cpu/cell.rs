@@ -6,9 +6,6 @@ use super::math::{clamp, to_u32};
 use super::plane::Vec2;
 use crate::layout::cell;
 
-/// Position of a float's exponent.
-const EXPONENT: u32 = f32::MANTISSA_DIGITS - 1;
-
 /// A cell of the packed words.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cell {
@@ -39,7 +36,7 @@ impl Cell {
 
     /// Its side, in the file's cells: exactly 1 / `per_cell`.
     pub(super) fn side(&self) -> f32 {
-        f32::from_bits((254_u32 << EXPONENT).wrapping_sub(self.per_cell))
+        f32::from_bits((254_u32 << cell::EXPONENT_SHIFT).wrapping_sub(self.per_cell))
     }
 }
 
@@ -59,7 +56,7 @@ pub(super) fn cell(sampler: &Sampler<'_>, p: Vec2, observer: &mut impl Observer)
     } else {
         0
     };
-    let per_cell = s.base_per_cell.to_bits().wrapping_add(depth << EXPONENT);
+    let per_cell = s.base_per_cell.to_bits().wrapping_add(depth << cell::EXPONENT_SHIFT);
     let at = place.map(|at| (at * f32::from_bits(per_cell)).floor());
     let mut found = Cell { word, per_cell, at };
     if divided {

@@ -15,6 +15,9 @@ const MIXED: u32 = u32::MAX;
 /// Writes their clearance into the words of cells without lists. Beyond the grid nothing differs,
 /// because no lookup samples there.
 pub(super) fn write(grid: &mut Grid) {
+    if grid.words.is_empty() {
+        return;
+    }
     let mut clearances = vec![GREATEST; grid.words.len()];
     for at in places(grid.size) {
         if let Some(block) = grid.block_at(at) {

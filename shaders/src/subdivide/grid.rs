@@ -52,6 +52,9 @@ struct Content {
 impl Picture {
     /// The grid with the fewest words; `None` if there is none that words can name.
     pub(super) fn grid(&self) -> Option<Grid> {
+        if self.size.contains(&0) {
+            return Some(Grid::default());
+        }
         let depths: Vec<u32> = self.trees.iter().map(Tree::depth).collect();
         let mut best: Option<(usize, Side)> = None;
         for side in SMALLEST..=0 {

@@ -53,6 +53,7 @@ const VTEX_CELL_DEPTH_SHIFT: u32 = 26u;
 const VTEX_CELL_DEPTH_MASK: u32 = 7u;
 const VTEX_CELL_PLACE_MASK: u32 = 0x3ffffffu;
 const VTEX_CELL_BLOCK_WORDS: u32 = 4u;
+const VTEX_CELL_EXPONENT_SHIFT: u32 = 23u;
 const VTEX_CELL_EMPTY: u32 = 0u;
 const VTEX_CELL_SOLID: u32 = 1u;
 const VTEX_CELL_LIST: u32 = 2u;

@@ -2,9 +2,6 @@
 //!use vtex/texture
 // The cells: a grid of base cells, and blocks of finer ones where a base cell shows more.
 
-// Position of a float's exponent.
-const VTEX_CELL_EXPONENT: u32 = 23u;
-
 struct VtexCell {
     // Never that of a block.
     word: u32,
@@ -22,7 +19,7 @@ fn vtex_cell(vt: VtexTexture, p: vec2f) -> VtexCell {
     let word = vtex_word(vt, vt.cells + bitcast<u32>(base.y * i32(vt.base.w) + base.x));
     let divided = (word >> VTEX_CELL_BLOCK_SHIFT) == VTEX_CELL_BLOCK;
     let depth = select(0u, (word >> VTEX_CELL_DEPTH_SHIFT) & VTEX_CELL_DEPTH_MASK, divided);
-    let per_cell = bitcast<u32>(vt.base.z) + (depth << VTEX_CELL_EXPONENT);
+    let per_cell = bitcast<u32>(vt.base.z) + (depth << VTEX_CELL_EXPONENT_SHIFT);
     let at = floor(place * bitcast<f32>(per_cell));
     var cell = VtexCell(word, per_cell, at);
     if divided {
@@ -35,7 +32,7 @@ fn vtex_cell(vt: VtexTexture, p: vec2f) -> VtexCell {
 
 // The side of a cell, in the file's cells: exactly 1 / per_cell.
 fn vtex_cell_side(cell: VtexCell) -> f32 {
-    return bitcast<f32>((254u << VTEX_CELL_EXPONENT) - cell.per_cell);
+    return bitcast<f32>((254u << VTEX_CELL_EXPONENT_SHIFT) - cell.per_cell);
 }
 
 // The corner of the file's cell that `p` lies in.
