@@ -56,7 +56,10 @@ pub(super) fn cell(sampler: &Sampler<'_>, p: Vec2, observer: &mut impl Observer)
     } else {
         0
     };
-    let per_cell = s.base_per_cell.to_bits().wrapping_add(depth << cell::EXPONENT_SHIFT);
+    let per_cell = s
+        .base_per_cell
+        .to_bits()
+        .wrapping_add(depth << cell::EXPONENT_SHIFT);
     let at = place.map(|at| (at * f32::from_bits(per_cell)).floor());
     let mut found = Cell { word, per_cell, at };
     if divided {
