@@ -234,8 +234,9 @@ fn a_clips_edge_is_a_linear_average() {
                     1.0
                 };
                 let expected = c * f64::from(full);
-                // The 32 samples have as many columns; the lattice holds the middle to half a unit.
-                let tolerance = 1.0 / 64.0 + 3e-4;
+                // The edge may lie anywhere between two of 32 samples, which move; the lattice holds
+                // the middle to half a unit.
+                let tolerance = 1.0 / 32.0 + 3e-4;
                 assert!(
                     (f64::from(got) - expected).abs() < tolerance,
                     "{u}: {got} {expected}"

@@ -13,9 +13,11 @@ fn key(features: u32) -> SpecKey {
 }
 
 /// Numbers that are no integers; tests of parity hold them against Rust's.
-const FLOATS: [&str; 5] = [
+const FLOATS: [&str; 7] = [
     "VTEX_ROWS_LEAST",
     "VTEX_ROWS_MOST",
+    "VTEX_ROWS_ROW",
+    "VTEX_ROWS_COLUMN",
     "VTEX_PICTURE_FAR",
     "VTEX_PICTURE_OVERLAP",
     "VTEX_PICTURE_PART",
