@@ -53,11 +53,12 @@ mod records;
 mod serial;
 
 pub use cells::blocks::{
-    Block, ListFault, ListFaultKind, MAX_FRAMES, MaskBlock, jump_target, list_blocks, list_frames,
+    Block, ListFault, ListFaultKind, MAX_BLEND_DEPTH, MaskBlock, branch_target, list_blend_depth,
+    list_blocks,
 };
 pub use cells::cell::{
-    CELL_TAG_SHIFT, CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL, MAX_INDEXED, MAX_ITEMS,
-    MAX_LIST_ITEMS,
+    CELL_TAG_SHIFT, CellWord, Entry, EntryKind, MAX_COMMANDS, MAX_ENTRIES_PER_CELL, MAX_INDEXED,
+    MAX_LIST_COMMANDS,
 };
 pub use cells::control::{BlendMode, MaskKind, OPEN_ISOLATED};
 pub use container::directory::{Directory, directory};
@@ -65,13 +66,13 @@ pub use container::error::{ReadError, WriteError};
 pub use container::issue::{Fault, ISSUES, Issue, IssueKind};
 pub use container::layout::{MAX_SECTIONS, VERSION_MAJOR, VERSION_MINOR};
 pub use container::limits::Limits;
-pub use container::section::{Codec, SectionInfo};
+pub use container::section::{BundleInfo, Codec, SectionInfo};
 pub use container::tag::Tag;
 pub use curves::cut;
 pub use curves::outlines::{
     OutlineError, RecordParts, StoredOutline, StoredOutlines, StoredSegment,
 };
-pub use file::spec::{Features, SHADER_ABI, SHALLOW_FRAMES, SpecKey};
+pub use file::spec::{Features, SHADER_ABI, SHALLOW_BLEND_DEPTH, SpecKey};
 pub use file::texture::VtexFile;
 pub use records::curve::{
     CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CurveHeader, CurveLattice,

@@ -64,8 +64,8 @@ mod header = "HEADER" {
     MIP_TEXELS_PER_CELL = 27;
     /// First word of the fine cells.
     CELLS = 28;
-    /// First word of the items, [`item::WORDS`](super::item::WORDS) each.
-    ITEMS = 29;
+    /// First word of the commands, [`cmd::WORDS`](super::cmd::WORDS) each.
+    COMMANDS = 29;
     /// First word of the paints, [`paint::WORDS`](super::paint::WORDS) each.
     PAINTS = 30;
     /// First word of the tiles, `(texels_per_cell + 1)^2` each, one RGBA8 texel a word.
@@ -116,20 +116,21 @@ mod feature = "FEATURE" {
     MAPPING = vtex_format::Features::MAPPING;
 }
 
-/// Parts of a fine cell's word: tags as of [`vtex_format::CellWord`], a list's payload counts items.
-/// A cell with neither list nor groups has a room beside its paint: that many fine cells around it,
-/// in every direction, show the same. Only footprint lookups read it; for others it is 0.
+/// Parts of a fine cell's word: tags as of [`vtex_format::CellWord`], a list's payload counts
+/// commands. A cell with neither list nor groups has a clearance beside its paint: that many fine
+/// cells around it, in every direction, show the same. Only footprint lookups read it; for others
+/// it is 0.
 mod cell = "CELL" {
     /// Position of the tag.
     TAG_SHIFT = vtex_format::CELL_TAG_SHIFT;
-    /// Bits below the tag: of a list the index of its first item.
+    /// Bits below the tag: of a list the index of its first command.
     PAYLOAD_MASK = (1 << TAG_SHIFT) - 1;
     /// Bits of a paint's index.
     PAINT_MASK = vtex_format::MAX_INDEXED - 1;
-    /// Position of the room.
-    ROOM_SHIFT = PAINT_MASK.count_ones();
-    /// The greatest room, and the bits of one.
-    ROOM_MASK = 63;
+    /// Position of the clearance.
+    CLEARANCE_SHIFT = PAINT_MASK.count_ones();
+    /// The greatest clearance, and the bits of one.
+    CLEARANCE_MASK = 63;
     /// By how much of its side the list of a fine cell goes beyond it on each side, as far as the
     /// file's cell goes, in sixteenths. Only footprint lookups read it; for others it does not.
     OVERLAP = 4;
@@ -143,23 +144,23 @@ mod cell = "CELL" {
     GROUPS = 3;
 }
 
-/// An item of a list, four words. Curves are an item a segment: upper end, control point, lower
-/// end (x in the low half, y in the high half) and the word whose parts these are. Any other entry
-/// is one item whose first word is [`vtex_format::Entry::data`]. The last item of an entry carries
-/// what belongs to all of it: index, base, kind, rule, opaque and last.
+/// A command of a list, four words. Curves are a command a segment: upper end, control point, lower
+/// end (x in the low half, y in the high half) and the tag, the word whose parts these are. Any
+/// other entry is one command whose first word is [`vtex_format::Entry::data`]. The last command of
+/// an entry carries what belongs to all of it: index, base, kind, rule, opaque and last.
 ///
-/// An entry that draws nothing has [`CONTROL_BIT`](item::CONTROL_BIT) there. A test is
-/// curves; others are one item whose kind is full, with [`JUMP`](item::JUMP),
-/// [`OPEN`](item::OPEN), [`CLOSE`](item::CLOSE) or [`MASK`](item::MASK). The
-/// index of a test, jump or mask is the number of items to pass over, 0 for all that follow; the
-/// opaque bit of a test or jump says that it is done inside. First words: of open 1 when isolated;
-/// of mask its kind; of close opacity (float), blend mode and 1 when isolated.
-mod item = "ITEM" {
-    /// Words of an item.
+/// An entry that draws nothing has [`CONTROL_BIT`](cmd::CONTROL_BIT) there. A branch is curves;
+/// others are one command whose kind is full, with [`JUMP`](cmd::JUMP), [`OPEN`](cmd::OPEN),
+/// [`CLOSE`](cmd::CLOSE) or [`MASK`](cmd::MASK). The index of a branch, jump or mask is the number
+/// of commands to pass over, 0 for all that follow; the opaque bit of a branch or jump says that it
+/// is taken inside. First words: of open 1 when isolated; of mask its kind; of close opacity
+/// (float), blend mode and 1 when isolated.
+mod cmd = "CMD" {
+    /// Words of a command.
     WORDS = 4;
     /// Bits of the paint or image index.
     INDEX_MASK = vtex_format::MAX_INDEXED - 1;
-    /// Set in the last item of a control entry, which draws nothing.
+    /// Set in the last command of a control entry, which draws nothing.
     CONTROL_BIT = 1 << 18;
     /// Left shift that brings the base winding, four bits in two's complement, to the word's top.
     BASE_LEFT = 8;
@@ -177,7 +178,7 @@ mod item = "ITEM" {
     IMAGE = (vtex_format::EntryKind::Image as u32) << 24;
     /// Bits that tell control entries apart.
     CONTROL_MASK = KIND_MASK | LINE_BIT | DOWN_BIT;
-    /// Always passes over items.
+    /// An unconditional branch.
     JUMP = FULL;
     /// A group begins.
     OPEN = FULL | LINE_BIT;
@@ -191,14 +192,14 @@ mod item = "ITEM" {
     DOWN_BIT = 1 << 27;
     /// Set where an odd winding fills instead of one that is not zero.
     EVEN_ODD_BIT = 1 << 28;
-    /// Set in the last item of an entry.
+    /// Set in the last command of an entry.
     END_BIT = 1 << 29;
-    /// Set in the last, backmost item of a list.
+    /// Set in the last, backmost command of a list.
     LAST_BIT = 1 << 30;
     /// Set where nothing behind a coverage of 1 shows.
     OPAQUE_BIT = 1 << 31;
-    /// Bound of every loop over the items of a list.
-    LIMIT = vtex_format::MAX_LIST_ITEMS;
+    /// Bound of every loop over the commands of a list.
+    LIMIT = vtex_format::MAX_LIST_COMMANDS;
 }
 
 /// The samples of a footprint, a bit each: bit 4 k + j of a mask is sample j of row k.
@@ -211,10 +212,13 @@ mod rows = "ROWS" {
     SAMPLES = ROWS * COLUMNS;
     /// A mask of all samples.
     EVERY = u32::MAX;
-    /// How far right the samples of a row lie, in eighths of a column less a half, four bits a row from
-    /// the lowest: the order of eight even steps that has the least error over half planes and strips
-    /// of all directions (docs/decisions/0016).
-    SHIFTS = 0x6152_7304;
+    /// How many eighths of a column the samples of a row lie further right than those of the row
+    /// above, within their columns: of all orders of eight even steps, turned by any number of eighths,
+    /// the one with the least error over half planes and strips of all directions, together with
+    /// `ORDER` (docs/decisions/0016).
+    SHIFT = 3;
+    /// The columns that the samples of a row lie in, from the highest: four bits each, from the lowest.
+    ORDER = 0x1302;
 }
 
 /// [`vtex_format::MaskKind`] as stored.

@@ -23,11 +23,11 @@ mod pack;
 #[cfg(feature = "precompile")]
 mod precompile;
 pub mod record;
-mod refine;
 mod sources;
 mod spec;
 mod specialize;
 pub mod srgb;
+mod subdivide;
 
 pub use layout::{BatchQuery, FilterMode};
 pub use link::{LinkContext, LinkError, link};

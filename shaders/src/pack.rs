@@ -8,8 +8,8 @@ use vtex_format::{
 
 use crate::cpu::{color, to_f32, to_u32};
 use crate::layout::{FilterMode, OFFSET_END, gradient, header, image, paint};
-use crate::refine::refine;
 use crate::spec::spec_key;
+use crate::subdivide::subdivide;
 
 /// Evaluators read four words at a time.
 const GROUP_WORDS: usize = 4;
@@ -50,15 +50,19 @@ impl PackOptions {
 /// one that the format's validator finds nothing in; another gives a wrong picture, never a panic.
 pub fn pack(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
     let key = spec_key(file, options);
-    let refined = refine(file, options.filter, options.halvings);
+    let subdivision = subdivide(file, options.filter, options.halvings);
     let mut words = header_words(file, options, &key);
-    let fine = |axis: usize| to_f32(file.meta.grid.size_cells[axis] << refined.depth);
-    let per_cell = to_f32(1 << refined.depth);
+    let fine = |axis: usize| to_f32(file.meta.grid.size_cells[axis] << subdivision.depth);
+    let per_cell = to_f32(1 << subdivision.depth);
     let sizes = [fine(0), fine(1), per_cell, 1.0 / per_cell].map(f32::to_bits);
     words[header::FINE as usize..][..4].copy_from_slice(&sizes);
-    words.reserve(refined.words.len() + 4 * refined.items.len() + file.tiles.len() / 4);
-    section(&mut words, header::CELLS, &refined.words);
-    section(&mut words, header::ITEMS, refined.items.as_flattened());
+    words.reserve(subdivision.words.len() + 4 * subdivision.commands.len() + file.tiles.len() / 4);
+    section(&mut words, header::CELLS, &subdivision.words);
+    section(
+        &mut words,
+        header::COMMANDS,
+        subdivision.commands.as_flattened(),
+    );
     paint_section(&mut words, file);
     let texels = file.tiles.chunks_exact(4);
     let tiles: Vec<u32> = texels

@@ -1,5 +1,5 @@
 //! Winding from a curve record as a file stores it (docs/format.md 2.13). Tests compare
-//! evaluators with it, which read items made from records.
+//! evaluators with it, which read commands made from records.
 //!
 //! `record` below starts at the first word of what [`vtex_format::CurveHeader`] describes and may
 //! be longer; words that are missing count as segments that are not there. `p` is in units of the

@@ -36,8 +36,8 @@ const ALWAYS: u32 = Features::MIPS | Features::MASK;
 /// all texts have are set.
 pub fn kernel_key(key: &SpecKey) -> SpecKey {
     const LISTED: u32 =
-        Features::MSDF | Features::CURVES | Features::IMAGES | Features::TRANSLUCENT | SCOPED;
-    const SCOPED: u32 = Features::CLIPS | Features::GROUPS | Features::BLENDS;
+        Features::MSDF | Features::CURVES | Features::IMAGES | Features::TRANSLUCENT | CONTROLS;
+    const CONTROLS: u32 = Features::CLIPS | Features::GROUPS | Features::BLENDS;
     let mut features = key.features & Features::ALL | ALWAYS;
     // Without lists no entry is looked at.
     if features & Features::LISTS == 0 {
@@ -49,7 +49,7 @@ pub fn kernel_key(key: &SpecKey) -> SpecKey {
     } else {
         features &= !Features::DEEP_GROUPS;
     }
-    // A test looks at a curve record.
+    // A branch looks at a curve record.
     if features & Features::CLIPS != 0 {
         features |= Features::CURVES;
     }

@@ -1,6 +1,6 @@
 //! From a key to the text of its shader: modules chosen, constants written, nothing else.
 
-use vtex_format::{Features, MAX_FRAMES, SHALLOW_FRAMES, SpecKey};
+use vtex_format::{Features, MAX_BLEND_DEPTH, SHALLOW_BLEND_DEPTH, SpecKey};
 
 use crate::link::{LinkContext, link};
 use crate::spec::kernel_key;
@@ -64,14 +64,14 @@ pub fn scene_context(features: u32, slot: BindingSlot) -> LinkContext {
 /// texture uses, and everything else about it, the text reads from the texture's header.
 fn context(key: &SpecKey, BindingSlot { group, binding }: BindingSlot) -> LinkContext {
     let features = kernel_key(key).features;
-    let frames = match features & Features::DEEP_GROUPS != 0 {
-        true => MAX_FRAMES,
-        false => SHALLOW_FRAMES,
+    let blend_depth = match features & Features::DEEP_GROUPS != 0 {
+        true => MAX_BLEND_DEPTH,
+        false => SHALLOW_BLEND_DEPTH,
     };
     let text = format!(
         "@group({group}) @binding({binding}) var<storage, read> vtex_words: array<vec4u>;\n\n\
          const VTEX_KEY_FEATURES: u32 = {features}u;\n\
-         const VTEX_KEY_FRAMES: u32 = {frames}u;\n"
+         const VTEX_KEY_BLEND_DEPTH: u32 = {blend_depth}u;\n"
     );
     slots(features).define("vtex/key", text)
 }
@@ -85,11 +85,11 @@ fn slots(features: u32) -> LinkContext {
         (true, false) => "lists_draws",
         (true, true) => "lists_groups",
     };
-    let hit = match (has(Features::TRANSLUCENT), has(Features::FOOTPRINT)) {
-        (false, false) => "hit_first",
-        (false, true) => "hit_first_rows",
-        (true, false) => "hit_over",
-        (true, true) => "hit_over_rows",
+    let composite = match (has(Features::TRANSLUCENT), has(Features::FOOTPRINT)) {
+        (false, false) => "composite_first",
+        (false, true) => "composite_first_rows",
+        (true, false) => "composite_over",
+        (true, true) => "composite_over_rows",
     };
     let edge = match (has(Features::CURVES), has(Features::MSDF)) {
         (false, false) => "edge_none",
@@ -112,7 +112,7 @@ fn slots(features: u32) -> LinkContext {
         ),
         ("lists", lists),
         ("draws", pick(Features::PAPER, "draws_paper", "draws_walk")),
-        ("hit", hit),
+        ("composite", composite),
         ("edge", edge),
         ("ring", pick(Features::OUTLINE, "ring_outline", "ring_none")),
         (
@@ -120,8 +120,8 @@ fn slots(features: u32) -> LinkContext {
             pick(Features::GRADIENTS, "paint_gradient", "paint_solid"),
         ),
         (
-            "source",
-            pick(Features::IMAGES, "source_image", "source_paint"),
+            "brush",
+            pick(Features::IMAGES, "brush_image", "brush_paint"),
         ),
     ];
     table

@@ -3,12 +3,12 @@
 use vtex_format::{
     AddressMode, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CellWord, CurveHeader, CurveLattice,
     DistanceOutline, Entry, EntryKind, Features, Gradient, GradientShape, GradientStop, Grid,
-    Image, MAX_FRAMES, Meta, PaintRecord, SHALLOW_FRAMES, SamplerSettings, SpecKey, Spread,
-    VtexFile,
+    Image, MAX_BLEND_DEPTH, Meta, PaintRecord, SHALLOW_BLEND_DEPTH, SamplerSettings, SpecKey,
+    Spread, VtexFile,
 };
 
+use crate::clips_and_groups::{self, Wants};
 use crate::random::Random;
-use crate::scopes::{self, Wants};
 
 const DISTANCE_RANGE_TEXELS: f32 = 4.0;
 const PAINTS: u32 = 12;
@@ -204,11 +204,11 @@ fn random_tile(r: &mut Random, side: u32) -> Vec<u8> {
     let edges = [(); 3].map(|()| {
         let angle = r.between(0.0, std::f32::consts::TAU);
         let middle = side as f32 * 0.5;
-        let reach = r.between(-middle, middle);
+        let offset = r.between(-middle, middle);
         (
             angle.cos(),
             angle.sin(),
-            middle * (angle.cos() + angle.sin()) + reach,
+            middle * (angle.cos() + angle.sin()) + offset,
         )
     });
     let mut texels = Vec::new();
@@ -230,7 +230,7 @@ fn random_tile(r: &mut Random, side: u32) -> Vec<u8> {
 /// Never: the contours are short.
 fn push_random_record(r: &mut Random, file: &mut VtexFile) -> u32 {
     // Lines and quadratics, those that run up, those that run down.
-    let mut runs = [const { Vec::<u32>::new() }; 4];
+    let mut by_direction = [const { Vec::<u32>::new() }; 4];
     for _ in 0..=r.below(3) {
         let corners: Vec<[u32; 2]> = (0..3 + r.below(6))
             .map(|_| [(); 2].map(|()| r.below(1 << 16)))
@@ -240,7 +240,7 @@ fn push_random_record(r: &mut Random, file: &mut VtexFile) -> u32 {
             let [a, b] = if down { [from, to] } else { [to, from] };
             let word = |[x, y]: [u32; 2]| x | y << 16;
             if r.below(2) == 0 {
-                runs[usize::from(down)].extend([word(a), word(b)]);
+                by_direction[usize::from(down)].extend([word(a), word(b)]);
             } else {
                 // Between the ends, so that both coordinates are monotone.
                 let between = |i: usize| {
@@ -248,7 +248,7 @@ fn push_random_record(r: &mut Random, file: &mut VtexFile) -> u32 {
                     low + (r.below(high - low + 1))
                 };
                 let control = [0, 1].map(between);
-                runs[2 + usize::from(down)].extend([word(a), word(control), word(b)]);
+                by_direction[2 + usize::from(down)].extend([word(a), word(control), word(b)]);
             }
         }
     }
@@ -257,17 +257,17 @@ fn push_random_record(r: &mut Random, file: &mut VtexFile) -> u32 {
         .collect();
     let count = |words: usize| u32::try_from(words).expect("short contours");
     let header = CurveHeader {
-        line_count: count(runs[0].len() + runs[1].len()) / CURVE_LINE_WORDS,
-        down_line_count: count(runs[1].len()) / CURVE_LINE_WORDS,
-        quad_count: count(runs[2].len() + runs[3].len()) / CURVE_QUAD_WORDS,
-        down_quad_count: count(runs[3].len()) / CURVE_QUAD_WORDS,
+        line_count: count(by_direction[0].len() + by_direction[1].len()) / CURVE_LINE_WORDS,
+        down_line_count: count(by_direction[1].len()) / CURVE_LINE_WORDS,
+        quad_count: count(by_direction[2].len() + by_direction[3].len()) / CURVE_QUAD_WORDS,
+        down_quad_count: count(by_direction[3].len()) / CURVE_QUAD_WORDS,
         step_count: count(steps.len()),
         even_odd: r.below(2) == 0,
         base_winding: [0, 0, 1, -1][r.below(4) as usize],
     };
     let place = count(file.curves.len());
     file.curves.extend(header.encode().expect("short contours"));
-    let [up_lines, down_lines, up_quads, down_quads] = runs;
+    let [up_lines, down_lines, up_quads, down_quads] = by_direction;
     let parts = [steps, down_lines, up_lines, down_quads, up_quads];
     file.curves.extend(parts.concat());
     place
@@ -304,9 +304,9 @@ fn random_cell(r: &mut Random, file: &mut VtexFile, features: u32, records: &[u3
         _ => {}
     }
     let offset_words = u32::try_from(file.entries.len()).expect("a small file");
-    let scoped = features & (Features::CLIPS | Features::GROUPS) != 0;
-    let entries = if scoped && r.below(4) > 0 {
-        scoped_list(r, file, features, records)
+    let grouped = features & (Features::CLIPS | Features::GROUPS) != 0;
+    let entries = if grouped && r.below(4) > 0 {
+        grouped_list(r, file, features, records)
     } else {
         plain_list(r, file, features, records)
     };
@@ -329,18 +329,18 @@ fn plain_list(r: &mut Random, file: &VtexFile, features: u32, records: &[u32]) -
 }
 
 /// A tree of clips and groups, in which entries of any kind draw.
-fn scoped_list(r: &mut Random, file: &VtexFile, features: u32, records: &[u32]) -> Vec<Entry> {
+fn grouped_list(r: &mut Random, file: &VtexFile, features: u32, records: &[u32]) -> Vec<Entry> {
     let wants = Wants {
         clips: features & Features::CLIPS != 0,
         groups: features & Features::GROUPS != 0,
         blends: features & Features::BLENDS != 0,
     };
-    let frames = if features & Features::DEEP_GROUPS != 0 {
-        MAX_FRAMES
+    let depth = if features & Features::DEEP_GROUPS != 0 {
+        MAX_BLEND_DEPTH
     } else {
-        SHALLOW_FRAMES
+        SHALLOW_BLEND_DEPTH
     };
-    let mut entries = scopes::random_list(r, wants, records, frames);
+    let mut entries = clips_and_groups::random_list(r, wants, records, depth);
     for entry in &mut entries {
         if entry.kind.draws() {
             *entry = random_entry(r, file, features, records, false);
@@ -360,11 +360,11 @@ fn random_entry(
     last: bool,
 ) -> Entry {
     let has = |feature| features & feature != 0;
-    let scoped = has(Features::CLIPS) || has(Features::GROUPS);
+    let grouped = has(Features::CLIPS) || has(Features::GROUPS);
     let kinds = [
         (
             EntryKind::Full,
-            !has(Features::MSDF) && !has(Features::CURVES) || last || scoped && r.below(4) == 0,
+            !has(Features::MSDF) && !has(Features::CURVES) || last || grouped && r.below(4) == 0,
         ),
         (EntryKind::Image, has(Features::IMAGES)),
         (EntryKind::Msdf, has(Features::MSDF)),

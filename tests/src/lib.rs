@@ -2,10 +2,11 @@
 //!
 //! Functions here panic when something is wrong: they run inside tests.
 
+pub mod clips_and_groups;
 pub mod fixture;
 pub mod fonts;
 pub mod gpu;
+pub mod hostile;
 pub mod parity;
 pub mod random;
-pub mod scopes;
 pub mod variants;

@@ -13,8 +13,11 @@ fn key(features: u32) -> SpecKey {
 }
 
 /// Numbers that are no integers; tests of parity hold them against Rust's.
-const FLOATS: [&str; 3] = [
+const FLOATS: [&str; 6] = [
     "VTEX_ROWS_LEAST",
+    "VTEX_LOOKUP_MOST",
+    "VTEX_ROWS_ROW",
+    "VTEX_ROWS_COLUMN",
     "VTEX_PICTURE_FAR",
     "VTEX_PICTURE_OVERLAP",
 ];

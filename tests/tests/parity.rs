@@ -7,16 +7,16 @@ use vtex_format::{DistanceOutline, Features, SpecKey, VtexFile};
 use vtex_shaders::{
     BatchQuery, FilterMode, PackOptions, batch_kernel, pack, shader_blob, spec_key,
 };
+use vtex_tests::clips_and_groups::{Drawing, Wants};
 use vtex_tests::fixture::random_texture;
 use vtex_tests::gpu::Gpu;
 use vtex_tests::parity::{Parities, Parity, Subject, random_queries};
-use vtex_tests::scopes::{Drawing, Wants};
 use vtex_tests::variants::scene_kernel;
 
 /// Lookups of a random texture in each filter mode.
 const RANDOM_QUERIES: u32 = 100_000;
 /// The same of random trees of clips and groups.
-const SCOPED_QUERIES: u32 = 30_000;
+const GROUPED_QUERIES: u32 = 30_000;
 /// Lookups of a baked drawing, or of random curves, in point mode, and in each of the others.
 const BAKED_POINT_QUERIES: u32 = 1_000_000;
 const BAKED_OTHER_QUERIES: u32 = 200_000;
@@ -25,8 +25,9 @@ const LISTS: u32 = Features::LISTS;
 const CURVES: u32 = Features::LISTS | Features::CURVES;
 const COLOR: u32 = Features::LISTS | Features::MSDF;
 
-/// What `scoped_files` has.
-const SCOPES: u32 = Features::CLIPS | Features::GROUPS | Features::BLENDS | Features::DEEP_GROUPS;
+/// What `grouped_files` has.
+const CLIPS_AND_GROUPS: u32 =
+    Features::CLIPS | Features::GROUPS | Features::BLENDS | Features::DEEP_GROUPS;
 
 /// Feature sets that between them reach every other module of the evaluator.
 const CASES: [(&str, u32); 20] = [
@@ -72,7 +73,8 @@ const CASES: [(&str, u32); 20] = [
     ),
     (
         "all",
-        Features::ALL & !(SCOPES | Features::MASK | Features::FOOTPRINT | Features::PAPER),
+        Features::ALL
+            & !(CLIPS_AND_GROUPS | Features::MASK | Features::FOOTPRINT | Features::PAPER),
     ),
 ];
 
@@ -181,7 +183,7 @@ fn twin_and_gpu_agree_on_baked_drawings() {
 }
 
 /// Random trees of clips, groups, masks and blend modes, as they are, as a mask and outlined.
-fn scoped_files() -> Vec<(String, VtexFile)> {
+fn grouped_files() -> Vec<(String, VtexFile)> {
     let wants = [
         ("clips", [true, false, false]),
         ("groups", [false, true, false]),
@@ -215,9 +217,9 @@ fn scoped_files() -> Vec<(String, VtexFile)> {
 fn twin_and_gpu_agree_on_clips_and_groups() {
     let Some(gpu) = Gpu::open() else { return };
     let mut parities = Parities::default();
-    for (name, file) in scoped_files() {
+    for (name, file) in grouped_files() {
         let lookups = Lookups {
-            counts: [SCOPED_QUERIES; 3],
+            counts: [GROUPED_QUERIES; 3],
             margin: 0.1,
         };
         parities = parities.and(check_file(&gpu, &name, &file, &lookups));
@@ -249,7 +251,7 @@ fn scenes_look_up_each_texture_as_if_it_were_alone() {
     let Some(gpu) = Gpu::open() else { return };
     let plain = CASES.iter();
     let plain = plain.map(|(name, features)| (name.to_string(), random_texture(5, *features)));
-    let files: Vec<(String, VtexFile)> = plain.chain(scoped_files()).collect();
+    let files: Vec<(String, VtexFile)> = plain.chain(grouped_files()).collect();
     let mut parities = Parities::default();
     for filter in [FilterMode::Point, FilterMode::Footprint, FilterMode::Paper] {
         parities = parities.and(check_scene(&gpu, filter, &files));

@@ -76,10 +76,10 @@ fn keys_that_no_file_should_have_still_make_a_shader() {
 /// Ends of loops. Those over rows go from one clamped number of rows to another.
 const BOUNDS: [&str; 7] = [
     "i < 2u; i += 1u",
-    "i < VTEX_ITEM_LIMIT; i += 1u",
+    "i < VTEX_CMD_LIMIT; i += 1u",
     "i < VTEX_ROWS_SAMPLES; i += 1u",
     "i <= VTEX_ROWS_SAMPLES; i += 1u",
-    "row < end; row += 1",
+    "row < rows_end; row += 1",
     "i < VTEX_IMAGE_TAPS * VTEX_IMAGE_PLACES; i += 1u",
     "i < VTEX_GRADIENT_SEARCH_STEPS; i += 1u",
 ];

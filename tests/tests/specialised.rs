@@ -10,7 +10,7 @@ use vtex_baker::{BakeConfig, Mode, Resources, bake};
 /// modes come with groups.
 const CODE: [(&str, &str); 5] = [
     // The functions of segments are there for MSDFs too, where nothing calls them.
-    ("curves", "vtex_samples_filled(winding, item.w)"),
+    ("curves", "vtex_samples_filled(winding, command.w)"),
     ("msdf", "fn vtex_msdf_distance("),
     ("gradients", "fn vtex_gradient("),
     ("groups", "fn vtex_groups("),

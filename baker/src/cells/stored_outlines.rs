@@ -37,16 +37,16 @@ fn stored_outlines(
     flatness_units: f32,
 ) -> Option<StoredOutlines> {
     // Only outlines that show are stored, in painter's order.
-    let mut shown: Vec<u32> = records
+    let mut used: Vec<u32> = records
         .iter()
         .flat_map(|record| record.outlines.iter().copied())
         .collect();
-    shown.sort_unstable();
-    shown.dedup();
+    used.sort_unstable();
+    used.dedup();
     let outline = |item: &u32| covers.get(*item as usize)?.stored.clone();
-    let outlines = shown.iter().map(outline).collect::<Option<Vec<_>>>()?;
+    let outlines = used.iter().map(outline).collect::<Option<Vec<_>>>()?;
     // From the number of the item to the number of the stored outline.
-    let index = |item: u32| u32::try_from(shown.binary_search(&item).ok()?).ok();
+    let index = |item: u32| u32::try_from(used.binary_search(&item).ok()?).ok();
     let renumbered = |record: &RecordParts| {
         let outlines = record.outlines.iter().map(|&item| index(item));
         Some(RecordParts {

@@ -52,7 +52,7 @@ fn random_drawing(seed: u64, count: usize) -> Drawing {
             shape(outline, rule, [color[0], color[1], color[2], alpha])
         })
         .collect();
-    Drawing::flat([100.0, 80.0], items)
+    Drawing::ungrouped([100.0, 80.0], items)
 }
 
 /// The outcome of one comparison.
@@ -217,7 +217,7 @@ fn tiles_side_by_side_share_their_border() {
     };
     let mut drawing = random_drawing(3, 40);
     drawing.items.truncate(1);
-    drawing.tree = Tree::flat(1);
+    drawing.tree = Tree::ungrouped(1);
     drawing.items[0] = shape(
         kurbo::Circle::new((50.0, 40.0), 23.0).to_path(1e-4),
         FillRule::NonZero,
@@ -291,7 +291,7 @@ fn merged_shapes_share_a_layer_and_are_warned_about() {
             shape(circle, FillRule::NonZero, [red, 0.0, 0.0, 1.0])
         })
         .into();
-    let apart = Drawing::flat([100.0, 80.0], apart);
+    let apart = Drawing::ungrouped([100.0, 80.0], apart);
     assert!(!warned(&bake(apart, &config)));
 }
 
@@ -299,7 +299,7 @@ fn merged_shapes_share_a_layer_and_are_warned_about() {
 fn an_outline_widens_range_and_lists() {
     let circle = kurbo::Circle::new((50.0, 40.0), 20.0).to_path(1e-3);
     let drawing = || {
-        Drawing::flat(
+        Drawing::ungrouped(
             [100.0, 80.0],
             vec![shape(
                 circle.clone(),
@@ -331,7 +331,7 @@ fn an_outline_widens_range_and_lists() {
 
 #[test]
 fn a_drawing_that_shows_nothing_is_one_empty_grid() {
-    let drawing = Drawing::flat([3.0, 1.0], Vec::new());
+    let drawing = Drawing::ungrouped([3.0, 1.0], Vec::new());
     let file = bake(drawing, &msdf());
     assert!(file.cells.iter().all(|&word| word == 0) && file.tiles.is_empty());
     assert_eq!(file.provenance.unwrap().warnings.len(), 1);
@@ -360,7 +360,7 @@ fn odd_outlines_do_no_harm() {
     infinite.line_to((f64::INFINITY, 3.0));
     infinite.line_to((1.0, 3.0));
     items.push(shape(infinite, FillRule::NonZero, [0.0, 0.0, 0.0, 1.0]));
-    let drawing = Drawing::flat([100.0, 80.0], items);
+    let drawing = Drawing::ungrouped([100.0, 80.0], items);
     let file = bake(drawing, &msdf());
     // Only the huge rectangle shows there.
     let evaluator = Evaluator { file: &file };
@@ -398,7 +398,7 @@ fn corpus_files_are_listed_right() {
             crate::pipeline::draw(&svg, &config, &Resources::default(), &|_| ()).unwrap();
         for drawing in [&mut drawing, &mut again] {
             drawing.items.retain(|item| matches!(item, Item::Shape(_)));
-            drawing.tree = Tree::flat(drawing.items.len());
+            drawing.tree = Tree::ungrouped(drawing.items.len());
         }
         let file = bake(drawing, &config);
         let tally = compare_lists(&again, &file, &config, 2_000);

@@ -23,7 +23,7 @@ const LISTING_TOLERANCE: f64 = 0.02;
 pub(crate) struct ShapeCells {
     /// Its coloured edges.
     pub(crate) edges: Vec<Edge>,
-    /// Pairs of a cell and the index of an edge within [`Distances::reach`] of it, sorted.
+    /// Pairs of a cell and the index of an edge within [`Distances::max_distance`] of it, sorted.
     near: Vec<(u32, u32)>,
     /// Cells with an edge within [`Distances::margin`], ascending.
     pub(crate) listed: Vec<u32>,
@@ -66,7 +66,7 @@ pub(crate) fn tile_spec<'a>(
         origin: [cell % columns * steps, cell / columns * steps],
         steps,
         range: scales.range,
-        reach: scales.distances.reach,
+        max_distance: scales.distances.max_distance,
         shapes,
     }
 }
@@ -123,7 +123,7 @@ fn bin_edges(cells: &mut ShapeCells, outline: &BezPath, lattice: &Lattice, dista
         for line in edge.lines() {
             // At least the margin, so that a listed cell never lacks the edge that it is listed
             // for.
-            let found = cells_near(line, lattice, distances.reach.max(margin));
+            let found = cells_near(line, lattice, distances.max_distance.max(margin));
             near.extend(found.into_iter().map(|cell| (cell, index)));
         }
     }
@@ -131,23 +131,23 @@ fn bin_edges(cells: &mut ShapeCells, outline: &BezPath, lattice: &Lattice, dista
     cells.listed = listed.into_iter().collect();
 }
 
-/// Cells within `reach` of `line`.
-fn cells_near(line: Line, lattice: &Lattice, reach: f64) -> Vec<u32> {
+/// Cells within `max_distance` of `line`.
+fn cells_near(line: Line, lattice: &Lattice, max_distance: f64) -> Vec<u32> {
     // A line far beside the canvas would be cut into as many pieces as it has cells of length.
-    let beyond = reach + 2.0 * lattice.cell_steps();
+    let beyond = max_distance + 2.0 * lattice.cell_steps();
     let mut near = Vec::new();
     let Some(line) = clip_line(line, lattice.canvas.inflate(beyond, beyond)) else {
         return near;
     };
     // Short pieces, because the cells of a long diagonal line's box are mostly far from the line.
     for piece in pieces(line, lattice.cell_steps()) {
-        let area = Rect::from_points(piece.p0, piece.p1).inflate(reach, reach);
+        let area = Rect::from_points(piece.p0, piece.p1).inflate(max_distance, max_distance);
         let Some([columns, rows]) = lattice.cells_in(area) else {
             continue;
         };
         for row in rows[0]..=rows[1] {
             for column in columns[0]..=columns[1] {
-                if line_box_distance(piece, lattice.cell_rect(column, row)) <= reach {
+                if line_box_distance(piece, lattice.cell_rect(column, row)) <= max_distance {
                     near.push(row * lattice.grid.size_cells[0] + column);
                 }
             }

@@ -25,7 +25,7 @@ use crate::{
 
 /// Segments of one shape in one cell. A shape with more would leave no room for others in the
 /// cell's list, which evaluators bound.
-const MAX_CELL_SEGMENTS: usize = vtex_format::MAX_LIST_ITEMS as usize * 3 / 4;
+const MAX_CELL_SEGMENTS: usize = vtex_format::MAX_LIST_COMMANDS as usize * 3 / 4;
 
 /// Where an item shows on the grid.
 #[derive(Debug, Default)]

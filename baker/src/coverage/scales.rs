@@ -1,8 +1,8 @@
-//! The distances of a bake: how far an edge reaches, and how many pixels a step is.
+//! The distances of a bake: how far the field of an edge extends, and how many pixels a step is.
 //!
 //! Lookups in paper mode see the edge of an MSDF from some distance: its coverage falls from 1 to 0
 //! over a *ramp* around it, and the distance outline lies outside it. A cell must list every shape
-//! whose ramp or outline reaches into it. Other lookups see an edge where it is.
+//! whose ramp or outline extends into it. Other lookups see an edge where it is.
 //!
 //! The margin is at least half a texel of mip 0, as footprint mode needed before decision 0016.
 //! Curves could do with that of rounding alone.
@@ -12,7 +12,7 @@ use crate::{config::BakeConfig, coverage::grid::Lattice, number::to_f32};
 /// Steps beyond half the range within which an edge still takes part in a tile. A bilinear lookup
 /// mixes four texels, which lie up to a diagonal (1.42 steps) further from the edge than the
 /// lookup.
-const REACH_BEYOND_RANGE: f64 = 1.5;
+const DISTANCE_BEYOND_RANGE: f64 = 1.5;
 /// Steps by which f32 arithmetic may misplace a lookup in an evaluator, with room to spare.
 const ROUNDING_MARGIN: f64 = 0.01;
 
@@ -22,7 +22,7 @@ pub(crate) struct Distances {
     /// A cell lists a shape if an edge is within this distance of it.
     pub(crate) margin: f64,
     /// An edge takes part in the tile of a cell if it is within this distance.
-    pub(crate) reach: f64,
+    pub(crate) max_distance: f64,
 }
 
 /// Distances of this bake, in steps of its lattice.
@@ -50,7 +50,7 @@ impl Scales {
             range,
             distances: Distances {
                 margin: outline + ramp.max(smoothing) + ROUNDING_MARGIN,
-                reach: 0.5 * range + REACH_BEYOND_RANGE,
+                max_distance: 0.5 * range + DISTANCE_BEYOND_RANGE,
             },
             longer_side_px: config.longer_side_px(),
         }

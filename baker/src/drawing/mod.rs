@@ -37,10 +37,10 @@ impl Drawing {
 
     /// Items without groups.
     #[cfg(test)]
-    pub(crate) fn flat(canvas_size: [f64; 2], items: Vec<Item>) -> Self {
+    pub(crate) fn ungrouped(canvas_size: [f64; 2], items: Vec<Item>) -> Self {
         Self {
             canvas_size,
-            tree: Tree::flat(items.len()),
+            tree: Tree::ungrouped(items.len()),
             items,
             warnings: Vec::new(),
         }

@@ -71,7 +71,7 @@ pub(crate) struct Mask {
 
 impl Tree {
     /// A tree of `items` items without groups.
-    pub(crate) fn flat(items: usize) -> Self {
+    pub(crate) fn ungrouped(items: usize) -> Self {
         let count = u32::try_from(items).unwrap_or(u32::MAX);
         Self {
             roots: (0..count).map(Node::Item).collect(),

@@ -1,4 +1,4 @@
-//! The grid that a drawing is laid on, and what each item is to its cells.
+//! The grid that a drawing is placed on, and what each item is to its cells.
 
 use kurbo::Shape as _;
 
@@ -35,11 +35,11 @@ pub(crate) struct Layout {
     pub(crate) covers: Vec<Cover>,
 }
 
-/// Judges the shapes and lays the drawing on a grid. Shapes that are too complex for curves become
-/// patches in `drawing`.
+/// Judges the shapes and places the drawing on a grid. Shapes that are too complex for curves
+/// become patches in `drawing`.
 pub(crate) fn lay_out(drawing: &mut Drawing, config: &BakeConfig) -> Layout {
     let judgement = judge(drawing, config);
-    let attempt = lay(drawing, &judgement, config);
+    let attempt = place_on_grid(drawing, &judgement, config);
     let Attempt {
         lattice,
         scales,
@@ -78,10 +78,10 @@ impl Attempt {
     }
 }
 
-/// Lays the drawing on a grid. If all shapes are curves, it is the coarsest one whose cells have
+/// Places the drawing on a grid. If all shapes are curves, it is the coarsest one whose cells have
 /// room for the outlines, as far as [`MAX_CUT_SEGMENTS`] allows; with MSDFs the judge has decided
 /// the size.
-fn lay(drawing: &Drawing, judgement: &Judgement, config: &BakeConfig) -> Attempt {
+fn place_on_grid(drawing: &Drawing, judgement: &Judgement, config: &BakeConfig) -> Attempt {
     let (canvas_size, mip0_size) = (drawing.canvas_size, config.mip0_size);
     let msdf_size = judgement.msdf_size;
     let on = |lattice| Attempt::new(drawing, &judgement.verdicts, config, lattice);
@@ -107,11 +107,11 @@ fn lay(drawing: &Drawing, judgement: &Judgement, config: &BakeConfig) -> Attempt
 fn cut_segments(placed: &[Placed], lattice: &Lattice) -> f64 {
     let shapes = placed.iter().filter(|item| item.kind != PlacedKind::Image);
     let segments = shapes.flat_map(|item| item.outline.segments());
-    let reach: f64 = segments
+    let extent: f64 = segments
         .map(|segment| {
             let bounds = segment.bounding_box();
             (bounds.width() + bounds.height()) / lattice.longer_steps()
         })
         .sum();
-    reach * f64::from(lattice.grid.size_cells[0].max(lattice.grid.size_cells[1]))
+    extent * f64::from(lattice.grid.size_cells[0].max(lattice.grid.size_cells[1]))
 }

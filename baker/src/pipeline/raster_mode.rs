@@ -43,7 +43,7 @@ pub(crate) fn rastered(
     Ok(Drawing {
         canvas_size,
         items: vec![Item::Image(patch)],
-        tree: Tree::flat(1),
+        tree: Tree::ungrouped(1),
         warnings,
     })
 }

@@ -129,7 +129,7 @@ fn measure_against_fdsm() {
     for index in (0..300).step_by(25) {
         let mut drawing = drawing_of(&svg, &config);
         drawing.items = vec![drawing.items.swap_remove(index)];
-        drawing.tree = crate::drawing::tree::Tree::flat(1);
+        drawing.tree = crate::drawing::tree::Tree::ungrouped(1);
         let placed = {
             let forced =
                 crate::coverage::verdict::Verdict::forced(crate::coverage::verdict::Coverage::Msdf);

@@ -177,7 +177,7 @@ impl<'a> Texels<'a> {
     fn mean(&self, texel: [u32; 2]) -> [f32; 4] {
         let uv = |t: [f32; 2]| [0, 1].map(|i| (texel[i] as f32 + t[i]) / self.size[i] as f32);
         // Most texels have one colour, which one look at the fine cell tells.
-        if let Some(color) = self.sampler.flat_color(uv([0.0; 2]), uv([1.0; 2])) {
+        if let Some(color) = self.sampler.uniform_color(uv([0.0; 2]), uv([1.0; 2])) {
             return color;
         }
         let [width, height] = self.size.map(|side| self.footprint_texels / side as f32);
@@ -198,7 +198,7 @@ mod tests {
     use crate::{BakeConfig, Resources, bake, testing::Random};
 
     #[test]
-    fn a_flat_box_has_one_colour() {
+    fn a_uniform_box_has_one_colour() {
         let svg = br##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">
             <path d="M10 20H90V45H10z" fill="#a03"/><circle cx="50" cy="60" r="31" fill="#28b"/>
             <path d="M5 95C40 5 60 99 95 9L70 90z" fill="#fd0" fill-opacity=".6"/></svg>"##;
@@ -206,21 +206,21 @@ mod tests {
         let words = pack(&file, &PackOptions::default());
         let sampler = Sampler::new(&words);
         let mut random = Random(7);
-        let mut flat = 0;
+        let mut uniform = 0;
         for _ in 0..20_000 {
             let mut at = |low: f64, high: f64| crate::number::to_f32(random.within(low, high));
             let low = [at(0.0, 0.97), at(0.0, 0.97)];
             let high = [low[0] + at(0.0, 0.03), low[1] + at(0.0, 0.03)];
-            let Some(color) = sampler.flat_color(low, high) else {
+            let Some(color) = sampler.uniform_color(low, high) else {
                 continue;
             };
-            flat += 1;
+            uniform += 1;
             for _ in 0..32 {
                 let uv = [0, 1].map(|i| at(low[i].into(), high[i].into()));
                 assert_eq!(sampler.sample(uv, [0.0; 4]), color, "{uv:?}");
             }
         }
         // Edges are 5 canvas sides long, boxes 0.015 of one.
-        assert!((14_000..19_500).contains(&flat), "{flat}");
+        assert!((14_000..19_500).contains(&uniform), "{uniform}");
     }
 }

@@ -1,4 +1,4 @@
-//! Merging near colours in mips of flat drawings, so that they compress better.
+//! Merging near colours in mips of drawings of solid paints, so that they compress better.
 //!
 //! Texels on edges are mixtures of the colours of shapes. Thousands of mixtures occur once or twice
 //! and differ by a code or two. With one colour for such neighbours texels repeat, and repetition

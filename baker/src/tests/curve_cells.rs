@@ -69,12 +69,12 @@ fn compare(drawing: &Drawing, file: &VtexFile, config: &BakeConfig, points: u32)
         if placed.iter().any(|item| near_an_edge(item, p)) {
             continue;
         }
-        let hit = placed.iter().rev().find_map(|item| match &item.kind {
+        let frontmost = placed.iter().rev().find_map(|item| match &item.kind {
             PlacedKind::Shape { paint, .. } if item.region.contains(p) => Some(solid(paint)),
             _ => None,
         });
         let seen = sampler.sample(uv, [0.0; 4]);
-        let expected = match hit {
+        let expected = match frontmost {
             Some([r, g, b, 1.0]) => {
                 let [r, g, b] = cpu::color::decode([r, g, b]);
                 [r, g, b, 1.0]

@@ -317,7 +317,7 @@ fn oracle_and_twin_agree() {
         if let Item::Shape(shape) = &mut item {
             shape.paint = Paint::Gradient(Arc::new(gradient.clone()));
         }
-        let drawing = Drawing::flat([10.0, 10.0], vec![item]);
+        let drawing = Drawing::ungrouped([10.0, 10.0], vec![item]);
         let config = BakeConfig::default();
         let file = crate::pipeline::assemble(drawing, None, &config, [0; 32], &|_| ()).unwrap();
         let words = pack(&file, &PackOptions::default());

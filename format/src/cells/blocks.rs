@@ -3,22 +3,22 @@
 //! A list is a sequence of *blocks*, front to back. A block is one of these:
 //!
 //! - an entry that draws;
-//! - a *clip*: tests, then the blocks that they let through. A test passes over entries as far as a
-//!   later test of its own clip, the first block behind them all, or the clip's end;
+//! - a *clip*: branches, then the blocks that they let through. A branch leads to a
+//!   later branch of its own clip, the first block behind them all, or the clip's end;
 //! - a *group*: any number of masks, each `Open` (isolated), blocks, `Mask`, then `Open`, blocks,
-//!   `Close`. A mask passes over all that follows it, up to and with the `Close`.
+//!   `Close`. A mask branches over all that follows it, up to and with the `Close`.
 //!
-//! Where a clip begins and ends follows from where its tests jump: it is the shortest run of entries
-//! from its first test on that no test inside it leaves.
+//! Where a clip begins and ends follows from where its branches lead: it is the shortest range of
+//! entries from its first branch on that no branch inside it leaves.
 
 use std::ops::Range;
 
 use super::cell::{Entry, EntryKind};
 use super::control::{BlendMode, OPEN_ISOLATED};
 
-/// Groups and clips that may be nested: evaluators keep an array of so many frames. The baker
+/// Groups and clips that may be nested: evaluators keep a blend stack of so many levels. The baker
 /// makes an image of what nests deeper.
-pub const MAX_FRAMES: u32 = 32;
+pub const MAX_BLEND_DEPTH: u32 = 32;
 /// Nested clips that parsing enters, before clips with one end are joined. Bounds its recursion.
 const MAX_DEPTH: u32 = 64;
 
@@ -27,10 +27,11 @@ const MAX_DEPTH: u32 = 64;
 pub enum Block {
     /// An entry that draws.
     Draw(usize),
-    /// Blocks that show where tests let them through.
+    /// Blocks that show where branches let them through.
     Clip {
-        /// The tests. [`jump_target`] of each is in the range, its end, or the end of the body.
-        tests: Range<usize>,
+        /// The branches. [`branch_target`] of each is in the range, its end, or the end of the
+        /// body.
+        branches: Range<usize>,
         /// What they guard; not empty.
         body: Vec<Self>,
     },
@@ -72,34 +73,34 @@ pub struct ListFault {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ListFaultKind {
-    /// A jump leaves its list or group, ends inside another, or among what a clip lets through.
-    #[error("a jump to where none may end")]
-    Jump,
+    /// A branch leaves its list or group, ends leads into another, or among what a clip lets
+    /// through.
+    #[error("a branch to where none may lead")]
+    Branch,
     /// An `Open` without end, or an end without `Open`.
     #[error("a group without beginning or end")]
     Bracket,
-    /// A mask that is not isolated, or what follows it is no group, or it passes over something
+    /// A mask that is not isolated, or what follows it is no group, or it branches over something
     /// else than that.
     #[error("a mask without its group")]
     Mask,
     /// A group that is not isolated and blends other than normally.
     #[error("a blend mode of a group that is not isolated")]
     Blend,
-    /// More than [`MAX_FRAMES`] groups and clips in one another.
+    /// More than [`MAX_BLEND_DEPTH`] groups and clips in one another.
     #[error("groups and clips too deep in one another")]
-    Frames,
+    BlendDepth,
 }
 
-/// Where the jump of the `Test` or `Mask` at `at` ends.
-pub const fn jump_target(at: usize, entry: &Entry) -> usize {
+/// Where the `Branch` or `Mask` at `at` leads.
+pub const fn branch_target(at: usize, entry: &Entry) -> usize {
     at + 1 + entry.index as usize
 }
 
 /// The blocks of a list, front to back; `entries` are all of it.
 ///
-/// # Errors
-/// [`ListFault`] with the first rule that is broken, [`ListFaultKind::Frames`] only where that is
-/// far beyond the bound: [`list_frames`] tells exactly.
+/// # Errors [`ListFault`] with the first rule that is broken, [`ListFaultKind::BlendDepth`] only
+/// where that is far beyond the bound: [`list_blend_depth`] tells exactly.
 pub fn list_blocks(entries: &[Entry]) -> Result<Vec<Block>, ListFault> {
     let parser = Parser {
         entries,
@@ -108,53 +109,53 @@ pub fn list_blocks(entries: &[Entry]) -> Result<Vec<Block>, ListFault> {
     parser.blocks(0..entries.len(), 0)
 }
 
-/// How many frames an evaluator needs for a list: one for each group and clip in one another, and
-/// inside a clip's tests one for each place where a jump over it may still end. At most
-/// [`MAX_FRAMES`]; 0 without control entries.
+/// How many levels of the blend stack a list needs at most: one for each group and clip in one
+/// another, and inside a clip's branches one for each place where a branch over it may still lead.
+/// At most [`MAX_BLEND_DEPTH`]; 0 without control entries.
 ///
 /// # Errors
 /// [`ListFault`] with the first rule that is broken.
-pub fn list_frames(entries: &[Entry]) -> Result<u32, ListFault> {
+pub fn list_blend_depth(entries: &[Entry]) -> Result<u32, ListFault> {
     // Lists that only draw need no parsing.
     if entries.iter().all(|entry| entry.kind.draws()) {
         return Ok(0);
     }
-    let frames = frames_of(&list_blocks(entries)?, entries);
-    if frames > MAX_FRAMES {
-        return Err(fault(0, ListFaultKind::Frames));
+    let depth = depth_of(&list_blocks(entries)?, entries);
+    if depth > MAX_BLEND_DEPTH {
+        return Err(fault(0, ListFaultKind::BlendDepth));
     }
-    Ok(frames)
+    Ok(depth)
 }
 
 const fn fault(entry: usize, kind: ListFaultKind) -> ListFault {
     ListFault { entry, kind }
 }
 
-fn frames_of(blocks: &[Block], entries: &[Entry]) -> u32 {
+fn depth_of(blocks: &[Block], entries: &[Entry]) -> u32 {
     let of = |block: &Block| match block {
         Block::Draw(_) => 0,
-        Block::Clip { tests, body } => {
-            // While tests run, each place where a jump may still end takes a frame. Behind them one
-            // frame stands for the whole clip.
-            waiting_jumps(tests.clone(), entries).max(1 + frames_of(body, entries))
+        Block::Clip { branches, body } => {
+            // While branches run, each place where a branch may still lead takes a level. Behind
+            // them one level stands for the whole clip.
+            waiting_branches(branches.clone(), entries).max(1 + depth_of(body, entries))
         }
         Block::Group { masks, body, .. } => {
             let masks = masks.iter().map(|mask| &mask.body);
-            let inner = masks.chain([body]).map(|body| frames_of(body, entries));
+            let inner = masks.chain([body]).map(|body| depth_of(body, entries));
             1 + inner.max().unwrap_or(0)
         }
     };
     blocks.iter().map(of).max().unwrap_or(0)
 }
 
-/// The most places at which jumps over one of `tests` end.
-fn waiting_jumps(tests: Range<usize>, entries: &[Entry]) -> u32 {
+/// The most places to which branches over one of `branches` lead.
+fn waiting_branches(branches: Range<usize>, entries: &[Entry]) -> u32 {
     let mut waiting: Vec<usize> = Vec::new();
     let mut most = 0;
-    for at in tests {
-        // Jumps that end here have arrived; jumps to one place share a frame.
+    for at in branches {
+        // Branches that lead here have arrived; branches to one place share a level.
         waiting.retain(|&target| target > at);
-        let target = jump_target(at, &entries[at]);
+        let target = branch_target(at, &entries[at]);
         if !waiting.contains(&target) {
             waiting.push(target);
         }
@@ -177,8 +178,8 @@ fn bracket_ends(entries: &[Entry]) -> Result<Vec<usize>, ListFault> {
             _ => {}
         }
         // Refused here already: it bounds how deep `Parser` recurses into groups.
-        if open.len() > MAX_FRAMES as usize {
-            return Err(fault(at, ListFaultKind::Frames));
+        if open.len() > MAX_BLEND_DEPTH as usize {
+            return Err(fault(at, ListFaultKind::BlendDepth));
         }
     }
     match open.pop() {
@@ -196,16 +197,16 @@ struct Parser<'a> {
 impl Parser<'_> {
     fn blocks(&self, range: Range<usize>, depth: u32) -> Result<Vec<Block>, ListFault> {
         if depth > MAX_DEPTH {
-            return Err(fault(range.start, ListFaultKind::Frames));
+            return Err(fault(range.start, ListFaultKind::BlendDepth));
         }
         let mut blocks = Vec::new();
         let mut at = range.start;
         while at < range.end {
             let (block, next) = match self.entries[at].kind {
-                EntryKind::Test => self.clip(at, range.end, depth)?,
+                EntryKind::Branch => self.clip(at, range.end, depth)?,
                 EntryKind::Open => self.group(at, range.end, depth)?,
-                // Its group begins outside the range: a jump cuts it.
-                EntryKind::Close | EntryKind::Mask => return Err(fault(at, ListFaultKind::Jump)),
+                // Its group begins outside the range: a branch cuts it.
+                EntryKind::Close | EntryKind::Mask => return Err(fault(at, ListFaultKind::Branch)),
                 _ => (Block::Draw(at), at + 1),
             };
             blocks.push(block);
@@ -214,68 +215,74 @@ impl Parser<'_> {
         Ok(blocks)
     }
 
-    /// The clip whose first test is at `start`, and what follows it.
+    /// The clip whose first branch is at `start`, and what follows it.
     fn clip(&self, start: usize, end: usize, depth: u32) -> Result<(Block, usize), ListFault> {
-        let (close, tests_end) = self.clip_range(start, end)?;
-        let mut body = self.blocks(tests_end..close, depth + 1)?;
-        let mut tests = start..tests_end;
+        let (close, branches_end) = self.clip_range(start, end)?;
+        let mut body = self.blocks(branches_end..close, depth + 1)?;
+        let mut branches = start..branches_end;
         // A clip whose body is one clip is joined with it: both guard the same blocks.
-        if let [Block::Clip { tests: inner, .. }] = body.as_slice() {
-            tests.end = inner.end;
+        if let [
+            Block::Clip {
+                branches: inner, ..
+            },
+        ] = body.as_slice()
+        {
+            branches.end = inner.end;
             let Some(Block::Clip { body: inner, .. }) = body.pop() else {
-                return Err(fault(start, ListFaultKind::Jump));
+                return Err(fault(start, ListFaultKind::Branch));
             };
             body = inner;
         }
-        Ok((Block::Clip { tests, body }, close))
+        Ok((Block::Clip { branches, body }, close))
     }
 
-    /// Where the clip from `start` on ends, and its tests.
+    /// Where the clip from `start` on ends, and its branches.
     fn clip_range(&self, start: usize, end: usize) -> Result<(usize, usize), ListFault> {
-        let target = |at: usize| jump_target(at, &self.entries[at]);
-        let jump = |at| fault(at, ListFaultKind::Jump);
-        // The clip ends where its farthest jump ends, so each test on the way may move its end.
-        let (mut close, mut tests_end) = (target(start), start + 1);
+        let target = |at: usize| branch_target(at, &self.entries[at]);
+        let stray = |at| fault(at, ListFaultKind::Branch);
+        // The clip ends where its farthest branch leads, so each branch on the way may move its
+        // end.
+        let (mut close, mut branches_end) = (target(start), start + 1);
         let mut at = start + 1;
         while at < close.min(end) {
             match self.entries[at].kind {
-                EntryKind::Test if target(at) > close => {
-                    // What jumps to the end so far jumps among the tests.
-                    tests_end = tests_end.max(close).max(at + 1);
+                EntryKind::Branch if target(at) > close => {
+                    // What leads to the end so far leads among the branches.
+                    branches_end = branches_end.max(close).max(at + 1);
                     close = target(at);
                 }
                 // A group lies in the clip as a whole; it is parsed later, with the body.
                 EntryKind::Open => at = self.ends[at],
-                EntryKind::Close | EntryKind::Mask => return Err(jump(start)),
+                EntryKind::Close | EntryKind::Mask => return Err(stray(start)),
                 _ => {}
             }
             at += 1;
         }
         // `at` is past `close` where a group begins inside the clip and ends behind it.
         if close > end || at != close {
-            return Err(jump(start));
+            return Err(stray(start));
         }
         let mut at = start;
-        while at < tests_end {
-            if self.entries[at].kind != EntryKind::Test {
-                return Err(jump(at));
+        while at < branches_end {
+            if self.entries[at].kind != EntryKind::Branch {
+                return Err(stray(at));
             }
             if target(at) < close {
-                tests_end = tests_end.max(target(at));
+                branches_end = branches_end.max(target(at));
             }
             at += 1;
         }
-        // Tests behind these that jump to the end guard the same body: they are tests of this clip,
-        // not clips in its body.
-        let more = self.entries[tests_end..close].iter().zip(tests_end..);
+        // Branches behind these that lead to the end guard the same body: they are branches of this
+        // clip, not clips in its body.
+        let more = self.entries[branches_end..close].iter().zip(branches_end..);
         let guards =
-            more.take_while(|&(entry, at)| entry.kind == EntryKind::Test && target(at) == close);
-        tests_end += guards.count();
+            more.take_while(|&(entry, at)| entry.kind == EntryKind::Branch && target(at) == close);
+        branches_end += guards.count();
         // A clip without a body shows nothing.
-        if tests_end >= close {
-            return Err(jump(start));
+        if branches_end >= close {
+            return Err(stray(start));
         }
-        Ok((close, tests_end))
+        Ok((close, branches_end))
     }
 
     /// The group whose first `Open` is at `start`, and what follows it.
@@ -285,7 +292,7 @@ impl Parser<'_> {
         loop {
             let close = self.ends[open];
             if close >= end {
-                return Err(fault(open, ListFaultKind::Jump));
+                return Err(fault(open, ListFaultKind::Branch));
             }
             let body = self.blocks(open + 1..close, depth + 1)?;
             let isolated = self.entries[open].data == OPEN_ISOLATED;
@@ -313,11 +320,11 @@ impl Parser<'_> {
         }
     }
 
-    /// All masks of a group pass over the same.
+    /// All masks of a group branch over the same.
     fn mask_targets(&self, masks: &[MaskBlock], target: usize) -> Result<(), ListFault> {
         let stray = masks
             .iter()
-            .find(|mask| jump_target(mask.close, &self.entries[mask.close]) != target);
+            .find(|mask| branch_target(mask.close, &self.entries[mask.close]) != target);
         match stray {
             Some(mask) => Err(fault(mask.close, ListFaultKind::Mask)),
             None => Ok(()),

@@ -17,12 +17,12 @@ const INDEX_MASK: u32 = OPAQUE_BIT - 1;
 pub const MAX_INDEXED: u32 = 1 << 18;
 /// Bits of 1.0: floats from 0 to 1 ascend as their bits do.
 const ONE_BITS: u32 = 0x3f80_0000;
-/// Items that a list may hold: segments and changes of the winding of its curve records; an entry
-/// without any is one. Bounds every evaluator loop over them.
-pub const MAX_LIST_ITEMS: u32 = 1 << 15;
-/// Items that all lists together may hold: what one storage binding of core WebGPU takes, 128 MiB
-/// at 16 bytes.
-pub const MAX_ITEMS: u64 = 1 << 23;
+/// Commands that a list may hold: segments and changes of the winding of its curve records; an
+/// entry without any is one. Bounds every evaluator loop over them.
+pub const MAX_LIST_COMMANDS: u32 = 1 << 15;
+/// Commands that all lists together may hold: what one storage binding of core WebGPU takes, 128
+/// MiB at 16 bytes.
+pub const MAX_COMMANDS: u64 = 1 << 23;
 
 /// One cell of the grid.
 ///
@@ -85,16 +85,16 @@ pub enum EntryKind {
     Curves = 2,
     /// A raster image; coverage and colour are its texels.
     Image = 3,
-    /// Shows nothing: passes over the `index` entries behind it where the lookup lies outside the
+    /// Shows nothing: branches over the `index` entries behind it where the lookup lies outside the
     /// outline in the curve record named by the next word; inside it when [`Entry::opaque`].
-    Test = 4,
+    Branch = 4,
     /// A group begins; [`crate::OPEN_ISOLATED`] or 0 in the next word.
     Open = 5,
     /// A group ends and is composited by the [`crate::BlendMode`] of number `index` with the
     /// opacity in the next word, f32 bits.
     Close = 6,
     /// A group ends and is the mask of the one behind it, by the [`crate::MaskKind`] in the next
-    /// word; passes over `index` entries where it is 0.
+    /// word; branches over `index` entries where it is 0.
     Mask = 7,
 }
 
@@ -106,7 +106,7 @@ impl EntryKind {
 
     /// Whether the second word names a curve record.
     pub const fn has_record(self) -> bool {
-        matches!(self, Self::Curves | Self::Test)
+        matches!(self, Self::Curves | Self::Branch)
     }
 }
 
@@ -120,7 +120,7 @@ impl EntryKind {
 /// | 25..0 | paint index, or image index for [`EntryKind::Image`]; less than [`MAX_INDEXED`] |
 ///
 /// The second word is the tile index for [`EntryKind::Msdf`], for [`EntryKind::Curves`] and
-/// [`EntryKind::Test`] the word offset of the record in the curve section, and 0 for
+/// [`EntryKind::Branch`] the word offset of the record in the curve section, and 0 for
 /// [`EntryKind::Full`] and [`EntryKind::Image`]. What the kinds that draw nothing hold is said
 /// there, and how they may follow each other at [`crate::list_blocks`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,8 +129,8 @@ pub struct Entry {
     pub kind: EntryKind,
     /// Whether the list ends here.
     pub last: bool,
-    /// Whether it hides what lies behind where its coverage is 1; of [`EntryKind::Test`] whether
-    /// it passes over entries inside instead of outside.
+    /// Whether it hides what lies behind where its coverage is 1; of [`EntryKind::Branch`] whether
+    /// it branches inside instead of outside.
     pub opaque: bool,
     /// Paint index, or image index for [`EntryKind::Image`].
     pub index: u32,
@@ -145,7 +145,8 @@ impl Entry {
         let last = if self.last { LAST_BIT } else { 0 };
         let opaque = if self.opaque { OPAQUE_BIT } else { 0 };
         let head = ((self.kind as u32) << KIND_SHIFT) | last | opaque | self.index;
-        // The stored field is wider than MAX_INDEXED; evaluators' items have 18 bits for the index.
+        // The stored field is wider than MAX_INDEXED; evaluators' commands have 18 bits for the
+        // index.
         (self.index < MAX_INDEXED && self.is_sound()).then_some([head, self.data])
     }
 
@@ -156,7 +157,7 @@ impl Entry {
             1 => EntryKind::Msdf,
             2 => EntryKind::Curves,
             3 => EntryKind::Image,
-            4 => EntryKind::Test,
+            4 => EntryKind::Branch,
             5 => EntryKind::Open,
             6 => EntryKind::Close,
             7 => EntryKind::Mask,
@@ -179,8 +180,8 @@ impl Entry {
         match self.kind {
             EntryKind::Full | EntryKind::Image => self.data == 0,
             EntryKind::Msdf | EntryKind::Curves => true,
-            // A test that passes over nothing would cost time and change nothing.
-            EntryKind::Test => self.index > 0,
+            // A branch over nothing would cost time and change nothing.
+            EntryKind::Branch => self.index > 0,
             EntryKind::Open => !self.opaque && self.index == 0 && self.data <= OPEN_ISOLATED,
             EntryKind::Close => {
                 // The bits of negative numbers and of NaN are larger than those of 1.
@@ -207,8 +208,8 @@ mod tests {
             data,
         };
         let sound = [
-            entry(EntryKind::Test, true, 1, 77),
-            entry(EntryKind::Test, false, MAX_INDEXED - 1, 0),
+            entry(EntryKind::Branch, true, 1, 77),
+            entry(EntryKind::Branch, false, MAX_INDEXED - 1, 0),
             entry(EntryKind::Open, false, 0, OPEN_ISOLATED),
             entry(EntryKind::Close, false, 15, 1.0_f32.to_bits()),
             entry(EntryKind::Close, false, 0, 0),
@@ -219,7 +220,7 @@ mod tests {
             assert_eq!(Entry::decode(words), Some(entry));
         }
         let unsound = [
-            entry(EntryKind::Test, false, 0, 0),
+            entry(EntryKind::Branch, false, 0, 0),
             entry(EntryKind::Open, true, 0, 0),
             entry(EntryKind::Open, false, 1, 0),
             entry(EntryKind::Open, false, 0, 2),

@@ -2,9 +2,9 @@
 
 use std::cell::OnceCell;
 
-use crate::cells::blocks::{ListFaultKind, list_frames};
+use crate::cells::blocks::{ListFaultKind, list_blend_depth};
 use crate::cells::cell::{
-    CellWord, Entry, EntryKind, LAST_BIT, MAX_ENTRIES_PER_CELL, MAX_ITEMS, MAX_LIST_ITEMS,
+    CellWord, Entry, EntryKind, LAST_BIT, MAX_COMMANDS, MAX_ENTRIES_PER_CELL, MAX_LIST_COMMANDS,
 };
 use crate::cells::lists::{list_entries, list_lengths};
 use crate::container::issue::{self, Issues};
@@ -64,7 +64,7 @@ pub(super) fn entries(file: &VtexFile, tables: &Tables, issues: &mut Issues) {
             EntryKind::Full | EntryKind::Msdf | EntryKind::Curves => {
                 (issue::ENTRY_PAINT, file.paints.len())
             }
-            EntryKind::Test | EntryKind::Open | EntryKind::Close | EntryKind::Mask => continue,
+            EntryKind::Branch | EntryKind::Open | EntryKind::Close | EntryKind::Mask => continue,
         };
         let place = entry.index as usize;
         if place >= count {
@@ -119,7 +119,7 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) {
         issues.add(issue::CELL_COUNT, Tag::CELL, 0, message);
     }
     let lengths = list_lengths(&file.entries);
-    let mut items = Items::of(file);
+    let mut commands = Commands::of(file);
     let has_controls = has_controls(&file.entries);
     for (index, &word) in file.cells.iter().enumerate() {
         let offset = 4 * index as u64;
@@ -143,13 +143,14 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) {
                     None => note(issue::LIST_OFFSET, format_args!("word {offset_words}")),
                     Some(Some(_)) => {
                         let first = offset_words as usize / 2;
-                        let (count, is_new) = items.take(first);
-                        if count > u64::from(MAX_LIST_ITEMS) {
-                            note(issue::LIST_ITEMS, format_args!("{count} items"));
+                        let (count, is_new) = commands.take(first);
+                        if count > u64::from(MAX_LIST_COMMANDS) {
+                            note(issue::LIST_COMMANDS, format_args!("{count} commands"));
                         }
-                        // Lists that overlap could take quadratic time. The bound on all items, one
-                        // at least for each entry, keeps the work linear: past it none is parsed.
-                        if has_controls && is_new && items.total <= MAX_ITEMS {
+                        // Lists that overlap could take quadratic time. The bound on all commands,
+                        // one at least for each entry, keeps the work linear: past it none is
+                        // parsed.
+                        if has_controls && is_new && commands.total <= MAX_COMMANDS {
                             controls(&file.entries, first, issues);
                         }
                     }
@@ -161,9 +162,9 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) {
             }
         }
     }
-    if items.total > MAX_ITEMS {
-        let message = format_args!("{} of at most {MAX_ITEMS} items", items.total);
-        issues.add(issue::ALL_ITEMS, Tag::CELL, 0, message);
+    if commands.total > MAX_COMMANDS {
+        let message = format_args!("{} of at most {MAX_COMMANDS} commands", commands.total);
+        issues.add(issue::ALL_COMMANDS, Tag::CELL, 0, message);
     }
 }
 
@@ -180,29 +181,29 @@ fn controls(entries: &[u32], first: usize, issues: &mut Issues) {
     let Some(list) = list_entries(entries, first) else {
         return;
     };
-    let Err(fault) = list_frames(&list) else {
+    let Err(fault) = list_blend_depth(&list) else {
         return;
     };
     let kind = match fault.kind {
-        ListFaultKind::Jump => issue::LIST_JUMP,
+        ListFaultKind::Branch => issue::LIST_BRANCH,
         ListFaultKind::Bracket => issue::LIST_GROUP,
         ListFaultKind::Mask => issue::LIST_MASK,
         ListFaultKind::Blend => issue::LIST_BLEND,
-        ListFaultKind::Frames => issue::LIST_FRAMES,
+        ListFaultKind::BlendDepth => issue::LIST_BLEND_DEPTH,
     };
     let message = format_args!("entry {} of the list at {first}", fault.entry);
     issues.add(kind, Tag::ENTR, 8 * (first + fault.entry) as u64, message);
 }
 
-/// Items of lists, by the entry a list starts with.
-struct Items {
+/// Commands of lists, by the entry a list starts with.
+struct Commands {
     to_the_end: Vec<u64>,
     taken: Vec<bool>,
-    /// Items of the lists taken so far, each list once.
+    /// Commands of the lists taken so far, each list once.
     total: u64,
 }
 
-impl Items {
+impl Commands {
     fn of(file: &VtexFile) -> Self {
         let (pairs, _) = file.entries.as_chunks::<2>();
         // From the back, so that lists that overlap take one pass.
@@ -210,7 +211,7 @@ impl Items {
         let backward = pairs.iter().rev().map(|&words| {
             let last = words[0] & LAST_BIT != 0;
             behind = if last { 0 } else { behind };
-            behind = behind.saturating_add(entry_items(file, words));
+            behind = behind.saturating_add(entry_commands(file, words));
             behind
         });
         let mut to_the_end: Vec<u64> = backward.collect();
@@ -222,20 +223,20 @@ impl Items {
         }
     }
 
-    /// Items of a list, and whether it is asked for the first time.
+    /// Commands of a list, and whether it is asked for the first time.
     fn take(&mut self, first: usize) -> (u64, bool) {
         // Invariant: the caller has found the length of this list, so the entry exists.
-        let items = self.to_the_end[first];
+        let commands = self.to_the_end[first];
         let is_new = !std::mem::replace(&mut self.taken[first], true);
         if is_new {
-            self.total = self.total.saturating_add(items);
+            self.total = self.total.saturating_add(commands);
         }
-        (items, is_new)
+        (commands, is_new)
     }
 }
 
-/// Items that evaluators walk for an entry; one where its record is not sound.
-fn entry_items(file: &VtexFile, words: [u32; 2]) -> u64 {
+/// Commands that evaluators walk for an entry; one where its record is not sound.
+fn entry_commands(file: &VtexFile, words: [u32; 2]) -> u64 {
     let entry = Entry::decode(words).filter(|entry| entry.kind.has_record());
     let record = entry.and_then(|entry| file.curves.get(entry.data as usize..));
     let header = record.and_then(|record| CurveHeader::decode(*record.first_chunk()?));
@@ -244,11 +245,11 @@ fn entry_items(file: &VtexFile, words: [u32; 2]) -> u64 {
     };
     let steps = record.iter().skip(CURVE_HEADER_WORDS as usize);
     let steps = steps.take(header.step_count as usize);
-    // Evaluators take an item for each unit by which a step changes the winding.
+    // Evaluators take a command for each unit by which a step changes the winding.
     let changes = steps.map(|step| u64::from((step.cast_signed() >> 16).unsigned_abs()));
     let base = header.base_winding;
-    // An evaluator's item holds a base winding of four bits, -8 to 7. Each unit beyond takes another
-    // item.
+    // An evaluator's command holds a base winding of four bits, -8 to 7. Each unit beyond takes
+    // another command.
     let beyond = base.saturating_sub(7).max(-8 - base).max(0).unsigned_abs();
     let segments = u64::from(header.line_count) + u64::from(header.quad_count);
     (segments + changes.sum::<u64>() + u64::from(beyond)).max(1)

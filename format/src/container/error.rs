@@ -19,6 +19,12 @@ pub enum ReadError {
         /// What is not known and where.
         issue: Issue,
     },
+    /// The file is of an earlier version of the format.
+    #[error("outdated .vtex file: {issue}; bake it again: `vtex bake drawing.svg -o drawing.vtex`")]
+    Outdated {
+        /// Which version and where.
+        issue: Issue,
+    },
     /// The file asks for more than the caller grants.
     #[error(".vtex file beyond the limits: {issue}; raise the limits if you trust it")]
     Limits {
@@ -31,9 +37,10 @@ impl ReadError {
     /// The issue, whoever is at fault.
     pub fn issue(&self) -> &Issue {
         match self {
-            Self::Malformed { issue } | Self::Unsupported { issue } | Self::Limits { issue } => {
-                issue
-            }
+            Self::Malformed { issue }
+            | Self::Unsupported { issue }
+            | Self::Outdated { issue }
+            | Self::Limits { issue } => issue,
         }
     }
 }
@@ -43,6 +50,7 @@ impl From<Issue> for ReadError {
         match issue.fault {
             Fault::Malformed => Self::Malformed { issue },
             Fault::Unsupported => Self::Unsupported { issue },
+            Fault::Outdated => Self::Outdated { issue },
             Fault::Limits => Self::Limits { issue },
         }
     }

@@ -1,6 +1,6 @@
-//! The fixed header: 64 bytes.
+//! The fixed header: 40 bytes.
 
-use super::layout::{MAGIC, VERSION_MAJOR, VERSION_MINOR, header as at};
+use super::layout::{HASH_BYTES, MAGIC, VERSION_MAJOR, VERSION_MINOR, header as at};
 
 /// The fields of a header besides its constants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,7 +9,7 @@ pub(crate) struct Header {
     pub(crate) minor: u16,
     pub(crate) section_count: u32,
     pub(crate) file_bytes: u64,
-    pub(crate) checksum: [u8; at::CHECKSUM_BYTES],
+    pub(crate) checksum: [u8; HASH_BYTES],
 }
 
 impl Header {
@@ -20,11 +20,11 @@ impl Header {
             minor: VERSION_MINOR,
             section_count,
             file_bytes,
-            checksum: [0; at::CHECKSUM_BYTES],
+            checksum: [0; HASH_BYTES],
         }
     }
 
-    /// Reads the fields; magic and reserved bytes are the caller's to check.
+    /// Reads the fields; the magic bytes are the caller's to check.
     pub(crate) fn decode(bytes: &[u8; at::BYTES]) -> Self {
         Self {
             major: u16::from_le_bytes(field(bytes, at::MAJOR)),
@@ -52,10 +52,10 @@ impl Header {
     }
 
     /// Checksum of this header, its own field taken as zero, and of the section table behind it.
-    pub(crate) fn checksum_with(&self, table: &[u8]) -> [u8; at::CHECKSUM_BYTES] {
+    pub(crate) fn checksum_with(&self, table: &[u8]) -> [u8; HASH_BYTES] {
         // The field cannot cover itself.
         let blank = Self {
-            checksum: [0; at::CHECKSUM_BYTES],
+            checksum: [0; HASH_BYTES],
             ..*self
         };
         let mut hasher = blake3::Hasher::new();

@@ -11,6 +11,8 @@ pub enum Fault {
     Malformed,
     /// The file needs a newer reader.
     Unsupported,
+    /// The file is of an earlier version of the format, which is not read any more: bake it again.
+    Outdated,
     /// The file asks for more than [`crate::Limits`] grants.
     Limits,
 }
@@ -122,32 +124,29 @@ macro_rules! issue_table {
 issue_table! {
     HEADER_SHORT = 1001 Malformed "the file is shorter than a header";
     MAGIC = 1002 Malformed "the magic bytes differ";
-    MAJOR = 1003 Unsupported "the major version is not supported";
+    MAJOR = 1003 Unsupported "the major version is later than 2";
     FILE_LENGTH = 1004 Malformed "the file's length differs from the one in its header";
-    HEADER_RESERVED = 1005 Malformed "reserved bytes of the header are not zero";
     SECTION_COUNT = 1006 Malformed "the section table does not fit the file or has too many entries";
     CHECKSUM = 1007 Malformed "the checksum of header and section table differs";
+    EARLIER_MAJOR = 1008 Outdated "the major version is earlier than 2";
 
     TAG = 2001 Malformed "a tag is not four upper-case letters or digits";
     UNKNOWN_CRITICAL = 2002 Unsupported "a critical section is unknown";
     CODEC = 2003 Unsupported "the codec is unknown";
     FLAGS = 2004 Malformed "the flags of a section are wrong";
-    ALIGNMENT = 2005 Malformed "a section does not start at a multiple of 64";
-    OVERLAP = 2006 Malformed "a section starts before the end of the one before it or of the section table";
-    BEYOND_END = 2007 Malformed "a section reaches beyond the end of the file";
-    PADDING = 2008 Malformed "padding between sections is not zero";
-    TRAILING = 2009 Malformed "there are bytes after the last section";
-    ENTRY_RESERVED = 2010 Malformed "reserved bytes of a table entry are not zero";
+    BEYOND_END = 2007 Malformed "a bundle reaches beyond the end of the file";
+    TRAILING = 2009 Malformed "there are bytes after the last bundle";
     EMPTY_SECTION = 2011 Malformed "a section is empty instead of absent";
-    RAW_LENGTH = 2012 Malformed "the stored and raw lengths of a raw section differ";
+    RAW_LENGTH = 2012 Malformed "the stored and raw lengths of a raw bundle differ";
     ORDER = 2013 Malformed "sections are out of order or repeated";
     MISSING = 2014 Malformed "a required section is missing";
-    STRAY_PART = 2015 Malformed "an image, level or layer range is given for a section that has none";
     TOTAL_BUDGET = 2016 Limits "the raw bytes exceed the budget";
     FRAME = 2017 Malformed "the stored bytes are not one plain zstd frame of the raw length";
     HASH = 2018 Malformed "the zstd blocks do not decode, or the hash of the raw bytes differs";
     MEMORY = 2019 Limits "memory for the raw bytes cannot be allocated";
     OUTLINE_BUDGET = 2020 Limits "making curve records from the outlines exceeds the budget";
+    SHARED_BYTES = 2021 Malformed "several sections in a bundle have more than 65,536 raw bytes";
+    SECTION_LENGTH = 2022 Malformed "a section has 2^32 raw bytes or more";
 
     META_BUDGET = 3001 Limits "META exceeds its budget";
     PROV_BUDGET = 3002 Limits "PROV exceeds its budget";
@@ -169,7 +168,7 @@ issue_table! {
     CURVE_LATTICE_USE = 3023 Malformed "there is a curve lattice without curve records, or records without a lattice";
     OUTLINE_SOLID = 3024 Malformed "the distance outline's paint is not a single colour";
     SPEC_LENGTH = 3030 Malformed "SPEC is not 32 bytes";
-    SPEC_ABI = 3031 Unsupported "the spec key is of a later ABI";
+    SPEC_ABI = 3031 Unsupported "the ABI of the spec key is not known";
     SPEC_FEATURES = 3032 Unsupported "the spec key has unknown features";
     SPEC_FEATURE_MISSING = 3033 Malformed "the spec key lacks a feature that the content needs";
     SPEC_FEATURE_STRAY = 3034 Malformed "the spec key has a feature that META rules out";
@@ -206,8 +205,8 @@ issue_table! {
     CELL_PAINT = 5003 Malformed "the paint of a cell does not exist";
     LIST_OFFSET = 5004 Malformed "a list starts outside the entries or inside an entry";
     LIST_END = 5005 Malformed "a list has no last entry within 4,096 entries";
-    LIST_ITEMS = 5006 Malformed "a list has more than 32,768 items";
-    ALL_ITEMS = 5007 Malformed "all lists together have more than 2^23 items";
+    LIST_COMMANDS = 5006 Malformed "a list has more than 32,768 commands";
+    ALL_COMMANDS = 5007 Malformed "all lists together have more than 2^23 commands";
     ENTRY_COUNT = 5010 Malformed "an entry is incomplete";
     ENTRY_WORD = 5011 Malformed "an entry has no meaning";
     ENTRY_PAINT = 5012 Malformed "the paint of an entry does not exist";
@@ -220,15 +219,15 @@ issue_table! {
     OUTLINE_RECORDS = 5022 Malformed "the curve records differ from those made from the outlines";
     OUTLINE_TWICE = 5023 Malformed "CURV and OUTL are both present";
 
-    LIST_JUMP = 5030 Malformed "a jump in a list has an invalid target";
+    LIST_BRANCH = 5030 Malformed "a branch in a list has an invalid target";
     LIST_GROUP = 5031 Malformed "a group in a list lacks its open or its close";
     LIST_MASK = 5032 Malformed "a mask in a list is not followed by its group";
     LIST_BLEND = 5033 Malformed "a group that is not isolated has a blend mode";
-    LIST_FRAMES = 5034 Malformed "a list needs more than 32 frames";
+    LIST_BLEND_DEPTH = 5034 Malformed "a list needs more than 32 levels of the blend stack";
 
-    TILE_PARTS = 6001 Malformed "the layer ranges of the TILE sections do not cover all layers in order";
     TILE_BYTES = 6002 Malformed "the length of the tiles differs from what the layers require";
     TILE_ALPHA = 6003 Malformed "the alpha of a tile's texel is not 255";
+    TILE_LAYERS = 6004 Malformed "the TILE sections do not hold the tiles of all layers, each in one section";
     IMAGE_SIZE = 6010 Malformed "an image has no texels or too many";
     IMAGE_LEVELS = 6011 Malformed "the levels of an image do not go down to one texel";
     IMAGE_RECT = 6012 Malformed "the rectangle of an image is not finite or empty";
@@ -253,10 +252,10 @@ mod tests {
     #[test]
     fn an_issue_reads_as_documented() {
         let mut issues = Issues::default();
-        issues.add(OVERLAP, Tag::SECT, 0x40, format_args!("starts at 7"));
+        issues.add(FLAGS, Tag::SECT, 0x2c, format_args!("flags 0x7"));
         assert_eq!(
             issues.into_vec()[0].to_string(),
-            "V2006 SECT @0x40: starts at 7"
+            "V2004 SECT @0x2c: flags 0x7"
         );
     }
 

@@ -5,15 +5,16 @@
 /// line-end translation, 0x1A stops a careless `type`.
 pub(crate) const MAGIC: [u8; 8] = [0x89, b'V', b'T', b'X', 0x0D, 0x0A, 0x1A, 0x0A];
 /// Files of another major version are refused.
-pub const VERSION_MAJOR: u16 = 1;
+pub const VERSION_MAJOR: u16 = 2;
 /// Higher minor versions add optional sections only and are read.
 pub const VERSION_MINOR: u16 = 0;
 
-/// Sections and their payloads start at multiples of this, a cache line.
-pub(crate) const ALIGNMENT_BYTES: u64 = 64;
-/// Bounds the section table (6 MiB), and so the images a file can hold. Past it a file is
+/// Bounds the section table (1.9 MiB), and so the images a file can hold. Past it a file is
 /// malformed.
 pub const MAX_SECTIONS: u32 = 65_536;
+/// Most raw bytes of a bundle of several sections. It is unpacked before the lengths of its sections
+/// are compared with what earlier sections imply, so this is what a lie about them can cost.
+pub(crate) const MAX_SHARED_BYTES: u64 = 1 << 16;
 
 /// Byte offsets within the header.
 pub(crate) mod header {
@@ -23,35 +24,37 @@ pub(crate) mod header {
     pub(crate) const SECTION_COUNT: usize = 12;
     pub(crate) const FILE_BYTES: usize = 16;
     pub(crate) const CHECKSUM: usize = 24;
-    /// Leading bytes of the blake3 that are kept: enough against damage.
-    pub(crate) const CHECKSUM_BYTES: usize = 16;
-    pub(crate) const RESERVED: usize = 40;
-    pub(crate) const BYTES: usize = 64;
+    pub(crate) const BYTES: usize = 40;
 }
 
-/// Byte offsets within an entry of the section table.
+/// Leading bytes of a blake3 that a file keeps, of its table as of a bundle. They are there against
+/// damage: who forges a file makes its hashes too.
+pub(crate) const HASH_BYTES: usize = 16;
+
+/// Byte offsets within an entry of the section table: its section.
 pub(crate) mod entry {
     pub(crate) const TAG: usize = 0;
-    pub(crate) const CODEC: usize = 4;
-    pub(crate) const FLAGS: usize = 6;
-    pub(crate) const OFFSET: usize = 8;
-    pub(crate) const STORED_BYTES: usize = 16;
-    pub(crate) const RAW_BYTES: usize = 24;
-    pub(crate) const HASH: usize = 32;
-    pub(crate) const IMAGE: usize = 64;
-    pub(crate) const MIP: usize = 68;
-    pub(crate) const LAYER_FIRST: usize = 72;
-    pub(crate) const LAYER_COUNT: usize = 76;
-    pub(crate) const RESERVED: usize = 80;
-    pub(crate) const BYTES: usize = 96;
+    pub(crate) const FLAGS: usize = 4;
+    pub(crate) const RAW_BYTES: usize = 5;
+    pub(crate) const BYTES: usize = 9;
+}
+
+/// Byte offsets within the rest of an entry whose section begins a bundle.
+pub(crate) mod bundle {
+    pub(crate) const CODEC: usize = 0;
+    pub(crate) const STORED_BYTES: usize = 1;
+    pub(crate) const HASH: usize = 5;
+    pub(crate) const BYTES: usize = 21;
 }
 
 /// [`crate::SectionInfo::critical`] in an entry's flags.
-pub(crate) const FLAG_CRITICAL: u16 = 1;
+pub(crate) const FLAG_CRITICAL: u8 = 1;
+/// The section shares the bundle of the section before it.
+pub(crate) const FLAG_SHARED: u8 = 2;
 /// Stored bytes are the raw bytes.
-pub(crate) const CODEC_RAW: u16 = 0;
+pub(crate) const CODEC_RAW: u8 = 0;
 /// Stored bytes are one zstd frame that names its content size.
-pub(crate) const CODEC_ZSTD: u16 = 1;
+pub(crate) const CODEC_ZSTD: u8 = 1;
 
 /// Bytes of `SHDR` before its text.
 pub(crate) const SHADER_HEAD_BYTES: usize = 16;
@@ -76,20 +79,14 @@ pub(crate) mod meta {
 
 const _: () = {
     assert!(
-        header::RESERVED == header::CHECKSUM + header::CHECKSUM_BYTES,
-        "header fields abut"
+        header::BYTES == header::CHECKSUM + HASH_BYTES,
+        "the checksum ends the header"
     );
     assert!(
-        header::BYTES as u64 == ALIGNMENT_BYTES,
-        "the table follows the header directly"
+        bundle::BYTES == bundle::HASH + HASH_BYTES,
+        "the hash ends an entry"
     );
-    assert!(entry::IMAGE == entry::HASH + 32, "entry fields abut");
 };
-
-/// `offset` rounded up to the next section boundary; `None` past the end of u64.
-pub(crate) fn align_up(offset: u64) -> Option<u64> {
-    offset.checked_next_multiple_of(ALIGNMENT_BYTES)
-}
 
 /// Channels of an MSDF texel that are stored; alpha is always 255.
 pub(crate) const TILE_PLANES: usize = 3;

@@ -4,14 +4,15 @@
 ///
 /// The memory of a section is allocated in one piece, once its length is known to be what grid,
 /// records and budgets allow. Besides that, reading takes a few bytes for each entry of the section
-/// table. In memory strings take up to three times their stored length, tiles four thirds of it.
+/// table, and 64 KiB for a bundle of several sections. In memory tiles take four thirds of
+/// their stored length, `PROV` with many short strings up to eight times.
 ///
 /// The C library unpacks a section into that piece. The decoder in Rust (feature `ruzstd` without
 /// `zstd`) first fills a buffer of its own, which takes up to twice the section's raw length; while
 /// that buffer grows, it and the smaller one take up to three times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// All sections together.
+    /// All bundles with known sections together.
     pub total_raw_bytes: u64,
     /// `META`; at most 99 bytes today.
     pub meta_bytes: u64,

@@ -37,9 +37,9 @@ impl Tag {
     pub const CURV: Self = Self(*b"CURV");
     /// Outlines that curve records are cut from: [`crate::StoredOutlines`].
     pub const OUTL: Self = Self(*b"OUTL");
-    /// MSDF tiles of a run of layers.
+    /// MSDF tiles of a range of layers.
     pub const TILE: Self = Self(*b"TILE");
-    /// Texels of one level of one image.
+    /// Texels of one level of one image, or of all its small levels.
     pub const MIPS: Self = Self(*b"MIPS");
 
     /// Whether every byte is an upper-case letter or a digit.
@@ -85,12 +85,12 @@ pub(crate) struct SectionKind {
     pub(crate) repeats: bool,
 }
 
-/// All sections of this version in file order: what bounds the others comes first, texels last.
+/// All sections of this version in file order: what bounds the others comes first, texels last. Small
+/// ones stand together, so that they share a bundle.
 pub(crate) const SECTIONS: [SectionKind; 15] = [
     section(Tag::META, true, true, false),
     section(Tag::SPEC, true, true, false),
-    // SHDR, PROV and SHAP are not critical: lookups do without them.
-    section(Tag::SHDR, false, true, false),
+    // PROV, SHAP and SHDR are not critical: lookups do without them.
     section(Tag::PROV, false, false, false),
     section(Tag::PANT, true, false, false),
     section(Tag::GRAD, true, false, false),
@@ -101,6 +101,7 @@ pub(crate) const SECTIONS: [SectionKind; 15] = [
     section(Tag::ENTR, true, false, false),
     section(Tag::CURV, true, false, false),
     section(Tag::OUTL, true, false, false),
+    section(Tag::SHDR, false, true, false),
     section(Tag::TILE, true, false, true),
     section(Tag::MIPS, true, false, true),
 ];

@@ -9,6 +9,8 @@ use crate::records::paint::PaintRecord;
 /// Version of the packed words and bindings shared by shaders and loaders. A file whose shader
 /// blob carries another ABI is evaluated with the runtime's own text.
 pub const SHADER_ABI: u32 = 2;
+/// Keys of files are read from this ABI on: they are the same features.
+pub(crate) const OLDEST_ABI: u32 = 2;
 
 /// What a specialised shader contains: a set of features. Same key, same text.
 ///
@@ -22,9 +24,9 @@ pub struct SpecKey {
 
 /// Groups and masks of a list that may be open at once without [`Features::DEEP_GROUPS`].
 ///
-/// An evaluator keeps a frame of five words for each. Two still lie in registers at little cost, and
-/// no list of 330 real files needs more (docs/decisions/0017).
-pub const SHALLOW_FRAMES: u32 = 2;
+/// An evaluator keeps a level of its blend stack, five words, for each. Two still lie in registers
+/// at little cost, and no list of 330 real files needs more (docs/decisions/0017).
+pub const SHALLOW_BLEND_DEPTH: u32 = 2;
 
 /// Bits of [`SpecKey::features`]. Code for an absent feature is not in the shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,7 +55,7 @@ impl Features {
     pub const FOOTPRINT: u32 = 1 << 9;
     /// Some cell or entry names a gradient.
     pub const GRADIENTS: u32 = 1 << 10;
-    /// Some entry is a test: what shows is clipped.
+    /// Some entry is a branch: what shows is clipped.
     pub const CLIPS: u32 = 1 << 11;
     /// Some entries are groups.
     pub const GROUPS: u32 = 1 << 12;
@@ -61,7 +63,7 @@ impl Features {
     pub const BLENDS: u32 = 1 << 13;
     /// Edges of MSDFs are \[SFG22\]'s ramps (a loader's choice too).
     pub const PAPER: u32 = 1 << 14;
-    /// In some list more than [`SHALLOW_FRAMES`] groups and masks are open at once.
+    /// In some list more than [`SHALLOW_BLEND_DEPTH`] groups and masks are open at once.
     pub const DEEP_GROUPS: u32 = 1 << 15;
     /// All bits this version knows.
     pub const ALL: u32 = (1 << 16) - 1;
@@ -135,7 +137,7 @@ impl<'a> Content<'a> {
             EntryKind::Full => 0,
             EntryKind::Msdf => Features::MSDF,
             EntryKind::Curves => Features::CURVES,
-            EntryKind::Test => return Features::CLIPS | Features::CURVES,
+            EntryKind::Branch => return Features::CLIPS | Features::CURVES,
             EntryKind::Close if entry.index != BlendMode::Normal as u32 => {
                 return Features::GROUPS | Features::BLENDS;
             }
@@ -159,8 +161,9 @@ impl<'a> Content<'a> {
     }
 }
 
-/// Whether more than [`SHALLOW_FRAMES`] groups and masks of a list are open at once. Lists that share a
-/// tail share whole blocks, in which as many open as close, so one pass over all entries will do.
+/// Whether more than [`SHALLOW_BLEND_DEPTH`] groups and masks of a list are open at once. Lists
+/// that share a suffix share whole blocks, in which as many open as close, so one pass over all
+/// entries will do.
 fn is_deep(entries: impl Iterator<Item = Entry>) -> bool {
     let mut depth = 0_u32;
     for entry in entries {
@@ -169,7 +172,7 @@ fn is_deep(entries: impl Iterator<Item = Entry>) -> bool {
             EntryKind::Close | EntryKind::Mask => depth = depth.saturating_sub(1),
             _ => {}
         }
-        if depth > SHALLOW_FRAMES {
+        if depth > SHALLOW_BLEND_DEPTH {
             return true;
         }
         if entry.last {
@@ -189,24 +192,6 @@ impl SpecKey {
     pub fn for_file(file: &VtexFile) -> Self {
         Self {
             features: Self::features_of(file) | (file.spec.features & Features::MIPS),
-        }
-    }
-
-    /// The key of a file of ABI 1, whose other words repeat META and lists. Features that ABI 1 does
-    /// not tell apart are set where a file may need them: that only costs time.
-    pub(crate) fn of_abi_1(features: u32, sampler: &SamplerSettings) -> Self {
-        let mapping = if sampler.is_mapped() {
-            Features::MAPPING
-        } else {
-            0
-        };
-        let deep = if features & Features::GROUPS != 0 {
-            Features::DEEP_GROUPS
-        } else {
-            0
-        };
-        Self {
-            features: features | mapping | deep,
         }
     }
 

@@ -203,8 +203,8 @@ mod tests {
         for margin in [0.0, 1.0 / 16.0, 0.125, 0.3, 1.0] {
             let lattice = CurveLattice::new(margin).expect("in range");
             assert!(lattice.box_units() <= 65_535, "{lattice:?}");
-            let reached = f64::from(lattice.margin_units) / f64::from(lattice.units_per_cell);
-            assert!(reached >= f64::from(margin) - 2e-5, "{lattice:?}");
+            let margin_cells = f64::from(lattice.margin_units) / f64::from(lattice.units_per_cell);
+            assert!(margin_cells >= f64::from(margin) - 2e-5, "{lattice:?}");
         }
         assert_eq!(CurveLattice::new(-0.1), None);
         assert_eq!(CurveLattice::new(f32::NAN), None);

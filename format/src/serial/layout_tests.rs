@@ -9,7 +9,7 @@ use vtex_testing::Frozen;
 use super::canonical;
 use crate::container::header::Header;
 use crate::container::layout::{self, VERSION_MAJOR, VERSION_MINOR};
-use crate::container::section::SectionInfo;
+use crate::container::section::{BundleEntry, SectionEntry};
 use crate::container::tag::Tag;
 use crate::curves::outlines::stream;
 use crate::records::image::ImageRecord;
@@ -71,12 +71,10 @@ fn the_wire_layout_changes_only_with_the_version() {
 fn offsets() -> String {
     [
         constants!("header" header {
-            MAGIC, MAJOR, MINOR, SECTION_COUNT, FILE_BYTES, CHECKSUM, CHECKSUM_BYTES, RESERVED, BYTES,
+            MAGIC, MAJOR, MINOR, SECTION_COUNT, FILE_BYTES, CHECKSUM, BYTES,
         }),
-        constants!("section entry" entry {
-            TAG, CODEC, FLAGS, OFFSET, STORED_BYTES, RAW_BYTES, HASH, IMAGE, MIP, LAYER_FIRST,
-            LAYER_COUNT, RESERVED, BYTES,
-        }),
+        constants!("section entry" entry { TAG, FLAGS, RAW_BYTES, BYTES }),
+        constants!("bundle in a section entry" bundle { CODEC, STORED_BYTES, HASH, BYTES }),
     ]
     .concat()
 }
@@ -128,7 +126,7 @@ fn enumerations() -> String {
             Msdf,
             Curves,
             Image,
-            Test,
+            Branch,
             Open,
             Close,
             Mask
@@ -205,7 +203,11 @@ fn values() -> String {
         let _ = writeln!(text, "{name}\n  {}", lines.join("\n  "));
     };
     add("header", &header().encode());
-    add("section entry", &section().encode());
+    add(
+        "section entry",
+        &SectionEntry::new(Tag::META, 0x1413_1211, true).encode(),
+    );
+    add("bundle in a section entry", &bundle().encode());
     add("META", &canonical::encode(&meta(None)));
     add(
         "META, outline",
@@ -232,7 +234,7 @@ fn values() -> String {
         "curve record",
         &words(&curve_header().encode().expect("fits")),
     );
-    add("curve sources", &stream::encode(&sources(), &[]));
+    add("stored outlines", &stream::encode(&stored_outlines(), &[]));
     text
 }
 
@@ -247,19 +249,11 @@ fn header() -> Header {
     }
 }
 
-fn section() -> SectionInfo {
-    SectionInfo {
-        tag: Tag::META,
-        critical: true,
+fn bundle() -> BundleEntry {
+    BundleEntry {
         codec: Codec::Zstd,
-        offset_bytes: 0x11,
-        stored_bytes: 0x12,
-        raw_bytes: 0x13,
-        hash: [0xB0; 32],
-        image: 0x14,
-        mip: 0x15,
-        layer_first: 0x16,
-        layer_count: 0x17,
+        stored_bytes: 0x2423_2221,
+        hash: std::array::from_fn(|i| 0xB0 + u8::try_from(i).expect("16 bytes")),
     }
 }
 
@@ -343,7 +337,7 @@ fn entries() -> Vec<u32> {
     let entries = [
         entry(EntryKind::Msdf, false, false),
         entry(EntryKind::Curves, false, true),
-        entry(EntryKind::Test, true, false),
+        entry(EntryKind::Branch, true, false),
     ];
     let words = |entry: Entry| entry.encode().expect("fits");
     entries.into_iter().flat_map(words).collect()
@@ -361,7 +355,7 @@ fn curve_header() -> CurveHeader {
     }
 }
 
-fn sources() -> StoredOutlines {
+fn stored_outlines() -> StoredOutlines {
     let line = |from, to| StoredSegment {
         from,
         control: None,

@@ -34,7 +34,7 @@ pub(crate) fn entries_from_stored(entries: &mut [u32], curves: &[u32]) {
 /// The second words of entries that name curve records, whether or not they are sound.
 fn record_offsets(entries: &mut [u32]) -> impl Iterator<Item = &mut u32> {
     let (pairs, _) = entries.as_chunks_mut::<2>();
-    let kinds = [EntryKind::Curves, EntryKind::Test].map(|kind| kind as u32);
+    let kinds = [EntryKind::Curves, EntryKind::Branch].map(|kind| kind as u32);
     pairs
         .iter_mut()
         .filter_map(move |[head, data]| kinds.contains(&(*head >> KIND_SHIFT)).then_some(data))
@@ -94,10 +94,10 @@ mod tests {
         let curves = [1, 0, 5, 5, 0, 0];
         let last = crate::cells::cell::LAST_BIT;
         let kind = (EntryKind::Curves as u32) << 28;
-        let test = (EntryKind::Test as u32) << 28;
-        let entries = [kind, 0, test | last, 4, kind | last, 0, kind, u32::MAX, 7];
+        let branch = (EntryKind::Branch as u32) << 28;
+        let entries = [kind, 0, branch | last, 4, kind | last, 0, kind, u32::MAX, 7];
         let stored = stored_entries(&entries, &curves);
-        assert_eq!(stored[..4], [kind, 0, test | last, 0]);
+        assert_eq!(stored[..4], [kind, 0, branch | last, 0]);
         let mut back = stored;
         entries_from_stored(&mut back, &curves);
         assert_eq!(back, entries);

@@ -1,17 +1,25 @@
-//! Raw bytes to stored bytes: a zstd frame a section, or the raw bytes themselves.
+//! Raw bytes to stored bytes: a zstd frame for a bundle, or the raw bytes themselves.
 
 use crate::container::section::Codec;
 
-/// Levels by the most raw bytes that take them: small sections as tight as zstd packs, larger ones
-/// where the next level costs more time than its bytes are worth. CPU time on one core:
+/// Levels by the most raw bytes that take them: beyond, the next level costs more time than its bytes
+/// are worth. Bundles of 70 real files, all together, and CPU time on one core (docs/decisions/0018):
 ///
-/// | the Tiger's | level 12 | 15 | 17 | 19 |
-/// |---|---|---|---|---|
-/// | mip 0, 946 KB | 73.6 KB, 9 ms | 73.2 KB, 26 ms | 66.2 KB, 42 ms | 64.9 KB, 128 ms |
-/// | mip 1, 237 KB | 29.5 KB, 8 ms | 28.3 KB, 19 ms | 28.3 KB, 37 ms | 28.2 KB, 47 ms |
-/// | outlines, 137 KB | 98.3 KB, 6 ms | 93.3 KB, 17 ms | 92.6 KB, 18 ms | 92.6 KB, 27 ms |
-/// | tiles, 1.6 MB | 404 KB, 170 ms | 398 KB, 660 ms | | 364 KB, 2.2 s |
-const LEVELS: [(usize, i32); 2] = [(32 << 10, 19), (usize::MAX, 12)];
+/// | | level 12 | 13 | 14 | 15 | 17 | 19 |
+/// |---|---|---|---|---|---|---|
+/// | tables up to 32 KiB | 206 KB, 0.1 s | 208, 0.1 | 203, 0.1 | 199, 0.2 | 198, 0.6 | 197, 1.2 |
+/// | small levels | 358 KB, 0.1 s | 356, 0.1 | 348, 0.1 | 345, 0.3 | 343, 0.6 | 342, 1.0 |
+/// | shaders, 50 to 68 KB | 1,259 KB, 0.3 s | 1,234, 0.5 | 1,198, 0.7 | 1,198, 0.8 | 1,188, 0.9 | 1,176, 2.2 |
+/// | levels up to 64 KiB | 508 KB, 0.2 s | 506, 0.2 | 481, 0.2 | 475, 0.3 | 472, 1.1 | 471, 2.0 |
+/// | levels up to 256 KiB | 1,398 KB, 0.7 s | 1,374, 0.7 | 1,318, 1.1 | 1,303, 1.3 | 1,278, 3.5 | 1,262, 4.4 |
+/// | outlines above 32 KiB | 753 KB, 0.1 s | 724, 0.1 | 722, 0.2 | 721, 0.2 | 717, 0.3 | 717, 0.6 |
+/// | larger levels | 4,650 KB, 2 s | 4,696, 5 | | 4,595, 14 | 4,103, 14 | |
+const LEVELS: [(usize, i32); 4] = [
+    (32 << 10, 15),
+    (96 << 10, 14),
+    (256 << 10, 13),
+    (usize::MAX, 12),
+];
 
 /// Raw bytes as stored: a zstd frame, or themselves when that is no shorter.
 ///

@@ -3,11 +3,11 @@
 
 use bytemuck::Pod;
 
-use super::levels::level_order;
+use super::levels::mip_sections;
 use super::unpack::{Refusal, allocate, unpack};
 use super::{canonical, offsets, planes};
 use crate::check::{self, images::image_records};
-use crate::container::directory::{entry_offset, read_directory, slice};
+use crate::container::directory::{Directory, read_directory, slice};
 use crate::container::error::ReadError;
 use crate::container::issue::{self, Issue, Issues};
 use crate::container::layout::{TILE_PLANES, entry, tile_texels};
@@ -16,7 +16,7 @@ use crate::container::section::SectionInfo;
 use crate::container::tag::Tag;
 use crate::container::words::words_from_little_endian;
 use crate::curves::outlines::{OutlineError, StoredOutlines, stream};
-use crate::file::spec::{SHADER_ABI, SpecKey};
+use crate::file::spec::{OLDEST_ABI, SHADER_ABI, SpecKey};
 use crate::file::texture::VtexFile;
 use crate::records::image::{Image, ImageRecord};
 use crate::records::layer::LayerRecord;
@@ -48,14 +48,14 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
     let directory = read_directory(bytes, limits, issues)?;
     let mut loader = Loader {
         bytes,
-        sections: &directory.sections,
+        directory: &directory,
         issues,
+        shared: None,
     };
     // Lengths of the rest hang on these settings.
     let meta = loader.meta()?;
     // No `?` before all have been tried: `validate` lists the issues of every section.
-    let spec = loader.spec(&meta);
-    let shader = loader.shader();
+    let spec = loader.spec();
     let provenance = loader.provenance();
     let paints = loader.records(Tag::PANT);
     let gradients = loader.records(Tag::GRAD);
@@ -65,6 +65,7 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
     let cells = loader.cells(&meta);
     let entries = loader.records(Tag::ENTR);
     let curves = loader.curves(&meta, limits);
+    let shader = loader.shader();
     let tiles = layers
         .as_deref()
         .and_then(|layers| loader.tiles(&meta, layers));
@@ -98,39 +99,73 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
 /// Unpacks sections. Every method notes why it returns `None`.
 struct Loader<'a> {
     bytes: &'a [u8],
-    sections: &'a [SectionInfo],
+    directory: &'a Directory,
     issues: &'a mut Issues,
+    /// The last bundle of several sections and its raw bytes, if it unpacks. Sections are read in
+    /// file order, so each bundle is unpacked once.
+    shared: Option<(usize, Option<Vec<u8>>)>,
 }
 
 impl Loader<'_> {
+    fn section(&self, index: usize) -> &SectionInfo {
+        &self.directory.sections[index]
+    }
+
     /// All sections of a tag with their places in the table.
     fn all(&self, tag: Tag) -> Vec<(usize, SectionInfo)> {
-        let sections = self.sections.iter().copied().enumerate();
+        let sections = self.directory.sections.iter().copied().enumerate();
         sections.filter(|(_, section)| section.tag == tag).collect()
     }
 
     /// A section unpacked into memory of its raw length.
     fn unpack(&mut self, index: usize, raw: &mut [u8]) -> Option<()> {
-        let section = &self.sections[index];
-        let start = section.offset_bytes;
-        // The directory has checked that this does not overflow.
-        let stored = slice(self.bytes, start, start + section.stored_bytes);
-        let result = unpack(section, stored, raw);
-        self.accept(index, result)
+        let section = *self.section(index);
+        if self.directory.bundles[section.bundle].section_count == 1 {
+            return self.unpack_bundle(section.bundle, raw);
+        }
+        if !matches!(self.shared, Some((bundle, _)) if bundle == section.bundle) {
+            let content = self.shared_bundle(section.bundle);
+            self.shared = Some((section.bundle, content));
+        }
+        let (_, content) = self.shared.as_ref()?;
+        let end = section.start_bytes + section.raw_bytes;
+        raw.copy_from_slice(slice(content.as_ref()?, section.start_bytes, end));
+        Some(())
+    }
+
+    fn shared_bundle(&mut self, bundle: usize) -> Option<Vec<u8>> {
+        let info = &self.directory.bundles[bundle];
+        let memory = allocate(info.raw_bytes);
+        let mut raw: Vec<u8> = self.accept(info.section_first, memory)?;
+        self.unpack_bundle(bundle, &mut raw)?;
+        Some(raw)
+    }
+
+    fn unpack_bundle(&mut self, bundle: usize, raw: &mut [u8]) -> Option<()> {
+        let info = &self.directory.bundles[bundle];
+        let start = info.offset_bytes;
+        let stored = slice(self.bytes, start, start + info.stored_bytes);
+        let result = unpack(info, stored, raw);
+        self.accept(info.section_first, result)
     }
 
     fn accept<T>(&mut self, index: usize, result: Result<T, Refusal>) -> Option<T> {
+        let SectionInfo {
+            tag,
+            entry_offset_bytes,
+            ..
+        } = *self.section(index);
         let note = |(kind, message): Refusal| {
-            let message = format_args!("{}: {message}", self.sections[index].tag);
+            let message = format_args!("{tag}: {message}");
             self.issues
-                .add(kind, Tag::SECT, entry_offset(index), message);
+                .add(kind, Tag::SECT, entry_offset_bytes, message);
         };
         result.map_err(note).ok()
     }
 
     /// The elements of a section as they are stored.
     fn load<T: Pod>(&mut self, index: usize) -> Option<Vec<T>> {
-        let memory = allocate(self.sections[index].raw_bytes);
+        let memory = allocate(self.section(index).raw_bytes);
         let mut elements: Vec<T> = self.accept(index, memory)?;
         self.unpack(index, bytemuck::cast_slice_mut(&mut elements))?;
         Some(elements)
@@ -156,11 +191,11 @@ impl Loader<'_> {
 
     /// Notes a raw length that is not what earlier sections imply, before memory is asked for.
     fn expect_bytes(&mut self, index: usize, kind: issue::IssueKind, expected: u64) -> Option<()> {
-        let section = &self.sections[index];
+        let section = *self.section(index);
         if section.raw_bytes == expected {
             return Some(());
         }
-        let offset = entry_offset(index) + entry::RAW_BYTES as u64;
+        let offset = section.entry_offset_bytes + entry::RAW_BYTES as u64;
         let message = format_args!(
             "{}: {} bytes, not {expected}",
             section.tag, section.raw_bytes
@@ -197,14 +232,13 @@ impl Loader<'_> {
         }
     }
 
-    fn spec(&mut self, meta: &Meta) -> Option<SpecKey> {
+    fn spec(&mut self) -> Option<SpecKey> {
         let &(index, _) = self.all(Tag::SPEC).first()?;
         self.expect_bytes(index, issue::SPEC_LENGTH, 4 * SpecKey::WORDS as u64)?;
         let words: Vec<u32> = self.records(Tag::SPEC)?;
         let &[abi, features, ref rest @ ..] = words.first_chunk::<{ SpecKey::WORDS }>()?;
         match abi {
-            1 => Some(SpecKey::of_abi_1(features, &meta.sampler)),
-            SHADER_ABI => {
+            OLDEST_ABI..=SHADER_ABI => {
                 if let Some(word) = rest.iter().position(|&word| word != 0) {
                     let message = format_args!("{:#x}", rest[word]);
                     let offset = 4 * (2 + word) as u64;
@@ -214,7 +248,7 @@ impl Loader<'_> {
                 Some(SpecKey { features })
             }
             _ => {
-                let message = format_args!("{abi}; 1 to {SHADER_ABI} are known");
+                let message = format_args!("{abi}; {OLDEST_ABI} to {SHADER_ABI} are known");
                 self.issues.add(issue::SPEC_ABI, Tag::SPEC, 0, message);
                 None
             }
@@ -247,42 +281,36 @@ impl Loader<'_> {
             return self.accept(index, Err(refusal));
         }
         let raw: Vec<u8> = self.load(index)?;
-        let known = self.sections.iter().filter(|s| s.tag.kind().is_some());
-        let spent: u64 = known.map(|section| section.raw_bytes).sum();
         // What decoding takes counts as if it were stored.
+        let spent = self.directory.read_bytes();
         let budget = limits.total_raw_bytes.saturating_sub(spent);
         let (words, outlines) = self.accept(index, cut_records(&raw, meta, budget))?;
         Some((words, Some(outlines)))
     }
 
-    /// The tiles of all layers, from sections whose layer ranges follow each other.
+    /// The tiles of all layers. Each section holds those of some layers, as its length tells.
     fn tiles(&mut self, meta: &Meta, layers: &[LayerRecord]) -> Option<Vec<u8>> {
         let parts = self.all(Tag::TILE);
         let tile_bytes = TILE_PLANES as u64 * tile_texels(meta.grid.texels_per_cell);
-        let count_bytes = |layers: &[LayerRecord]| {
-            let tiles: u64 = layers.iter().map(|layer| u64::from(layer.tile_count)).sum();
-            tile_bytes.saturating_mul(tiles)
-        };
-        let mut rest = layers;
-        for &(index, section) in &parts {
-            let begins = (layers.len() - rest.len()) as u64;
-            let taken = rest.split_at_checked(section.layer_count as usize);
-            let Some((part, behind)) = taken.filter(|_| u64::from(section.layer_first) == begins)
-            else {
-                let offset = entry_offset(index) + entry::LAYER_FIRST as u64;
-                let message = format_args!("should begin at layer {begins} of {}", layers.len());
-                self.issues
-                    .add(issue::TILE_PARTS, Tag::SECT, offset, message);
-                return None;
-            };
-            self.expect_bytes(index, issue::TILE_BYTES, count_bytes(part))?;
-            rest = behind;
+        let layer_bytes = |layer: &LayerRecord| tile_bytes.saturating_mul(layer.tile_count.into());
+        let mut rest = layers.iter().map(layer_bytes).filter(|&bytes| bytes > 0);
+        for (_, section) in &parts {
+            let mut missing = section.raw_bytes;
+            while missing > 0 {
+                let Some(left) = rest.next().and_then(|bytes| missing.checked_sub(bytes)) else {
+                    let offset = section.entry_offset_bytes + entry::RAW_BYTES as u64;
+                    let message = format_args!("{missing} bytes do not fill a layer");
+                    self.issues
+                        .add(issue::TILE_LAYERS, Tag::SECT, offset, message);
+                    return None;
+                };
+                missing = left;
+            }
         }
-        // Trailing layers without tiles belong to the last section. Without any tile there is none.
-        if count_bytes(rest) != 0 || (!parts.is_empty() && !rest.is_empty()) {
-            let count = rest.len();
-            let message = format_args!("the last {count} layers have no TILE");
-            self.issues.add(issue::TILE_PARTS, Tag::SECT, 0, message);
+        let left = rest.count();
+        if left > 0 {
+            let message = format_args!("{left} layers with tiles have no TILE");
+            self.issues.add(issue::TILE_LAYERS, Tag::SECT, 0, message);
             return None;
         }
         self.texels(&parts)
@@ -309,37 +337,37 @@ impl Loader<'_> {
         Some(all)
     }
 
-    /// Images with their levels, which are stored smallest first: coarse levels of all images
-    /// before finer ones, by image within a level.
+    /// Images with their levels, which are stored smallest first.
     fn images(&mut self, records: &[ImageRecord]) -> Option<Vec<Image>> {
         if !image_records(records, self.issues) {
             return None;
         }
-        let parts = self.all(Tag::MIPS);
+        let sizes: Vec<_> = records.iter().map(|record| record.size).collect();
+        let (parts, expected) = (self.all(Tag::MIPS), mip_sections(&sizes));
         // Counted first: the `zip` below ends with the shorter of the two.
-        let order = level_order(records.iter().map(|record| record.level_count));
-        if parts.len() as u64
-            != records
-                .iter()
-                .map(|record| u64::from(record.level_count))
-                .sum()
-        {
-            let message = format_args!("{} levels of {} images", parts.len(), records.len());
+        if parts.len() != expected.len() {
+            let (found, wanted) = (parts.len(), expected.len());
+            let message = format_args!("{found} sections, not {wanted}");
             self.issues.add(issue::MIP_PARTS, Tag::SECT, 0, message);
             return None;
         }
         let mut images: Vec<Image> = records.iter().map(ImageRecord::without_levels).collect();
-        for ((index, section), (level, image)) in parts.into_iter().zip(order) {
-            if (section.mip, section.image as usize) != (level, image) {
-                let offset = entry_offset(index) + entry::IMAGE as u64;
-                let message = format_args!("should be level {level} of image {image}");
-                self.issues
-                    .add(issue::MIP_PARTS, Tag::SECT, offset, message);
-                return None;
+        for ((index, _), part) in parts.into_iter().zip(expected) {
+            let size = sizes[part.image];
+            self.expect_bytes(index, issue::MIP_BYTES, part.bytes(size))?;
+            let texels: Vec<u8> = self.load(index)?;
+            let mips = &mut images[part.image].mips;
+            if part.levels.len() == 1 {
+                mips.push(texels);
+                continue;
             }
-            let expected = Image::level_bytes(records[image].size, level);
-            self.expect_bytes(index, issue::MIP_BYTES, expected)?;
-            images[image].mips.push(self.load(index)?);
+            let mut rest = texels.as_slice();
+            for level in part.stored_levels() {
+                let length = usize::try_from(Image::level_bytes(size, level)).ok()?;
+                let (texels, behind) = rest.split_at(length);
+                mips.push(texels.to_vec());
+                rest = behind;
+            }
         }
         // The file has the smallest level first.
         for image in &mut images {

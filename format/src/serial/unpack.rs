@@ -4,18 +4,18 @@ use bytemuck::Pod;
 
 use super::zstd_frame::Frame;
 use crate::container::issue::{self, IssueKind};
-use crate::container::section::{Codec, SectionInfo};
+use crate::container::section::{BundleInfo, Codec};
 
-/// Why a section's bytes could not be read.
+/// Why a bundle's or a section's bytes could not be read.
 pub(crate) type Refusal = (IssueKind, String);
 
-/// Unpacks a section into memory of just its raw length.
+/// Unpacks a bundle into memory of just its raw length.
 ///
 /// A frame with a bad shell is [`issue::FRAME`]. Blocks that do not unpack and blocks that unpack to
 /// other bytes are both [`issue::HASH`]: decoders differ in the damage they notice, and so a file has
 /// the same issues with either.
-pub(crate) fn unpack(section: &SectionInfo, stored: &[u8], raw: &mut [u8]) -> Result<(), Refusal> {
-    let unpacked = match section.codec {
+pub(crate) fn unpack(bundle: &BundleInfo, stored: &[u8], raw: &mut [u8]) -> Result<(), Refusal> {
+    let unpacked = match bundle.codec {
         // The directory has seen that both lengths are equal.
         Codec::Raw => {
             raw.copy_from_slice(stored);
@@ -28,7 +28,7 @@ pub(crate) fn unpack(section: &SectionInfo, stored: &[u8], raw: &mut [u8]) -> Re
         Codec::Unknown(number) => return Err((issue::CODEC, format!("codec {number}"))),
     };
     let hash = unpacked.map(|()| blake3::hash(raw));
-    if hash.is_none_or(|hash| *hash.as_bytes() != section.hash) {
+    if hash.is_none_or(|hash| !hash.as_bytes().starts_with(&bundle.hash)) {
         let message = "the raw bytes are not those that were written";
         return Err((issue::HASH, message.to_owned()));
     }

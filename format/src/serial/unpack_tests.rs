@@ -223,3 +223,10 @@ fn reserved_bits_and_too_many_literals_are_refused() {
         assert_eq!(refusal(&bad), "not a whole frame", "{bad:?}");
     }
 }
+
+#[test]
+fn memory_that_there_is_not_is_refused() {
+    let (kind, _) = allocate::<u32>(1 << 62).unwrap_err();
+    assert_eq!(kind, issue::MEMORY);
+    assert_eq!(allocate::<u32>(8), Ok(vec![0, 0]));
+}

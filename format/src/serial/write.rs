@@ -3,15 +3,15 @@
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
-use super::levels::level_order;
+use super::levels::mip_sections;
 use super::pack::pack;
 use super::{canonical, offsets, planes};
 use crate::check;
 use crate::container::error::WriteError;
-use crate::container::header::{Header, put};
-use crate::container::issue::{self, Issue, Issues};
-use crate::container::layout::{self, MAX_SECTIONS, entry, header, tile_texels};
-use crate::container::section::{Codec, SectionInfo};
+use crate::container::header::{Header, field};
+use crate::container::issue::{self, Issue, IssueKind, Issues};
+use crate::container::layout::{HASH_BYTES, MAX_SECTIONS, header, tile_texels};
+use crate::container::section::{BundleEntry, Codec, SectionEntry};
 use crate::container::tag::Tag;
 use crate::container::words::words_to_little_endian;
 use crate::curves::outlines::stream;
@@ -26,25 +26,29 @@ const TILE_PART_BYTES: u64 = 4 << 20;
 /// Runs jobs: calls its second argument once for every number below the first.
 pub type Executor<'a> = dyn Fn(usize, &(dyn Fn(usize) + Sync)) + 'a;
 
+/// Sections share a bundle up to this many raw bytes. Larger ones pack better by themselves
+/// (docs/decisions/0018).
+const SHARED_BYTES: usize = 32 << 10;
+
 /// A section before it is packed.
 struct Part<'a> {
     tag: Tag,
-    /// Image and level.
-    image: (u32, u32),
-    /// First layer and number of layers.
-    layers: (u32, u32),
     raw: Cow<'a, [u8]>,
 }
 
 impl<'a> Part<'a> {
-    fn whole(tag: Tag, raw: impl Into<Cow<'a, [u8]>>) -> Self {
+    fn new(tag: Tag, raw: impl Into<Cow<'a, [u8]>>) -> Self {
         Self {
             tag,
-            image: (0, 0),
-            layers: (0, 0),
             raw: raw.into(),
         }
     }
+}
+
+/// Sections that are stored together.
+struct Bundle<'a> {
+    sections: Vec<SectionEntry>,
+    raw: Cow<'a, [u8]>,
 }
 
 impl VtexFile {
@@ -69,26 +73,21 @@ impl VtexFile {
         let mut issues = Issues::default();
         check::file(self, &mut issues);
         issues.accept(Some(()))?;
-        let parts = self.parts()?;
+        let bundles = bundles(self.parts()?)?;
         // Each job has a slot of its own, so the order of the jobs does not show in the bytes.
-        let slots: Vec<OnceLock<_>> = parts.iter().map(|_| OnceLock::new()).collect();
-        run(parts.len(), &|index| {
-            slots[index].get_or_init(|| pack(&parts[index].raw));
+        let slots: Vec<OnceLock<_>> = bundles.iter().map(|_| OnceLock::new()).collect();
+        run(bundles.len(), &|index| {
+            slots[index].get_or_init(|| pack(&bundles[index].raw));
         });
         let stored = slots.into_iter().map(|slot| {
             let packed = slot.into_inner().expect("the caller runs every job");
             packed.map_err(WriteError::Compress)
         });
-        Ok(assemble(&parts, &stored.collect::<Result<Vec<_>, _>>()?))
+        Ok(assemble(&bundles, &stored.collect::<Result<Vec<_>, _>>()?))
     }
 
     /// All sections in file order, those without bytes left out.
     fn parts(&self) -> Result<Vec<Part<'_>>, Issue> {
-        let refuse = |kind, tag, message: std::fmt::Arguments<'_>| {
-            let mut issues = Issues::default();
-            issues.add(kind, tag, 0, message);
-            issues.into_vec().remove(0)
-        };
         let shader = self.shader.encode().ok_or_else(|| {
             refuse(
                 issue::SHADER_LENGTH,
@@ -103,18 +102,18 @@ impl VtexFile {
         let entries = offsets::stored_entries(&self.entries, &self.curves);
         // In the order of `SECTIONS`, on which a reader insists.
         let mut parts = vec![
-            Part::whole(Tag::META, canonical::encode(&self.meta)),
-            Part::whole(Tag::SPEC, words_to_little_endian(&spec).into_owned()),
-            Part::whole(Tag::SHDR, shader),
-            Part::whole(Tag::PROV, provenance.unwrap_or_default()),
-            Part::whole(Tag::PANT, words_to_little_endian(&self.paints)),
-            Part::whole(Tag::GRAD, words_to_little_endian(&self.gradients)),
-            Part::whole(Tag::SHAP, words_to_little_endian(&self.shapes)),
-            Part::whole(Tag::LAYR, words_to_little_endian(&self.layers)),
-            Part::whole(Tag::IMAG, words_to_little_endian(&records).into_owned()),
-            Part::whole(Tag::CELL, words_to_little_endian(&cells).into_owned()),
-            Part::whole(Tag::ENTR, words_to_little_endian(&entries).into_owned()),
+            Part::new(Tag::META, canonical::encode(&self.meta)),
+            Part::new(Tag::SPEC, words_to_little_endian(&spec).into_owned()),
+            Part::new(Tag::PROV, provenance.unwrap_or_default()),
+            Part::new(Tag::PANT, words_to_little_endian(&self.paints)),
+            Part::new(Tag::GRAD, words_to_little_endian(&self.gradients)),
+            Part::new(Tag::SHAP, words_to_little_endian(&self.shapes)),
+            Part::new(Tag::LAYR, words_to_little_endian(&self.layers)),
+            Part::new(Tag::IMAG, words_to_little_endian(&records).into_owned()),
+            Part::new(Tag::CELL, words_to_little_endian(&cells).into_owned()),
+            Part::new(Tag::ENTR, words_to_little_endian(&entries).into_owned()),
             self.curve_part(),
+            Part::new(Tag::SHDR, shader),
         ];
         parts.extend(self.tile_parts());
         parts.extend(self.mip_parts());
@@ -130,86 +129,137 @@ impl VtexFile {
     /// The outlines where there are some, else the records.
     fn curve_part(&self) -> Part<'_> {
         match &self.outlines {
-            Some(outlines) => Part::whole(Tag::OUTL, stream::encode(outlines, &self.curves)),
-            None => Part::whole(Tag::CURV, words_to_little_endian(&self.curves)),
+            Some(outlines) => Part::new(Tag::OUTL, stream::encode(outlines, &self.curves)),
+            None => Part::new(Tag::CURV, words_to_little_endian(&self.curves)),
         }
     }
 
-    /// Runs of whole layers; trailing layers without tiles join the last run.
+    /// Ranges of whole layers.
     fn tile_parts(&self) -> Vec<Part<'_>> {
         let tile_bytes = 4 * tile_texels(self.meta.grid.texels_per_cell);
         let bytes = |layer: &LayerRecord| tile_bytes * u64::from(layer.tile_count);
-        let mut runs: Vec<(u32, u32, u64)> = Vec::new();
-        for (index, layer) in (0_u32..).zip(&self.layers) {
-            // A layer without tiles joins any run: it adds no bytes.
-            match runs.last_mut() {
-                Some((_, count, total)) if *total < TILE_PART_BYTES || bytes(layer) == 0 => {
-                    *count += 1;
-                    *total += bytes(layer);
-                }
-                _ => runs.push((index, 1, bytes(layer))),
+        let mut ranges: Vec<u64> = Vec::new();
+        for bytes in self.layers.iter().map(bytes) {
+            match ranges.last_mut() {
+                Some(total) if *total < TILE_PART_BYTES => *total += bytes,
+                _ => ranges.push(bytes),
             }
         }
         let mut rest = self.tiles.as_slice();
-        let cut = runs.into_iter().map(|(first, count, total)| {
+        let cut = ranges.into_iter().map(|total| {
             let (texels, behind) = rest.split_at(usize::try_from(total).unwrap_or(rest.len()));
             rest = behind;
-            Part {
-                layers: (first, count),
-                ..Part::whole(Tag::TILE, planes::planes_from_texels(texels))
-            }
+            Part::new(Tag::TILE, planes::planes_from_texels(texels))
         });
         cut.collect()
     }
 
     fn mip_parts(&self) -> impl Iterator<Item = Part<'_>> {
-        let counts = self
-            .images
-            .iter()
-            .map(|image| ImageRecord::of(image).level_count);
-        level_order(counts).map(|(level, image)| Part {
-            // The caller refuses more than MAX_SECTIONS parts, so the index fits.
-            image: (u32::try_from(image).unwrap_or(u32::MAX), level),
-            ..Part::whole(
-                Tag::MIPS,
-                self.images[image].mips[level as usize].as_slice(),
-            )
+        let sizes: Vec<_> = self.images.iter().map(|image| image.size).collect();
+        mip_sections(&sizes).into_iter().map(|part| {
+            let mips = &self.images[part.image].mips;
+            let level = |level: u32| mips[level as usize].as_slice();
+            let raw = match part.levels.len() {
+                1 => Cow::Borrowed(level(part.levels.start)),
+                _ => part.stored_levels().flat_map(level).copied().collect(),
+            };
+            Part::new(Tag::MIPS, raw)
         })
     }
 }
 
-/// Lays packed sections behind header and table.
-fn assemble(parts: &[Part<'_>], stored: &[(Codec, Vec<u8>)]) -> Vec<u8> {
-    // Room for header and table, which are written last.
-    let mut bytes = vec![0; header::BYTES + parts.len() * entry::BYTES];
-    let mut table = Vec::with_capacity(parts.len() * entry::BYTES);
-    for (part, (codec, payload)) in parts.iter().zip(stored) {
-        bytes.resize(bytes.len().next_multiple_of(header::BYTES), 0);
-        let section = SectionInfo {
-            tag: part.tag,
-            critical: part.tag.kind().is_some_and(|kind| kind.critical),
-            codec: *codec,
-            offset_bytes: bytes.len() as u64,
-            stored_bytes: payload.len() as u64,
-            raw_bytes: part.raw.len() as u64,
-            hash: *blake3::hash(&part.raw).as_bytes(),
-            image: part.image.0,
-            mip: part.image.1,
-            layer_first: part.layers.0,
-            layer_count: part.layers.1,
+fn refuse(kind: IssueKind, tag: Tag, message: std::fmt::Arguments<'_>) -> Issue {
+    let mut issues = Issues::default();
+    issues.add(kind, tag, 0, message);
+    issues.into_vec().remove(0)
+}
+
+/// The length of a section, which its entry has 32 bits for.
+fn section_length(tag: Tag, bytes: usize) -> Result<u32, Issue> {
+    u32::try_from(bytes).map_err(|_| {
+        let message = format_args!("{bytes} bytes");
+        refuse(issue::SECTION_LENGTH, tag, message)
+    })
+}
+
+/// Puts sections that follow each other together while they are small.
+fn bundles(parts: Vec<Part<'_>>) -> Result<Vec<Bundle<'_>>, Issue> {
+    let mut bundles: Vec<Bundle<'_>> = Vec::new();
+    for part in parts {
+        let length = section_length(part.tag, part.raw.len())?;
+        let entry = |shared| SectionEntry::new(part.tag, length, shared);
+        match bundles.last_mut() {
+            Some(bundle) if bundle.raw.len() + part.raw.len() <= SHARED_BYTES => {
+                bundle.sections.push(entry(true));
+                bundle.raw.to_mut().extend_from_slice(&part.raw);
+            }
+            _ => bundles.push(Bundle {
+                sections: vec![entry(false)],
+                raw: part.raw,
+            }),
+        }
+    }
+    Ok(bundles)
+}
+
+/// Places packed bundles behind header and table.
+fn assemble(bundles: &[Bundle<'_>], stored: &[(Codec, Vec<u8>)]) -> Vec<u8> {
+    let mut table = Vec::new();
+    for (bundle, (codec, payload)) in bundles.iter().zip(stored) {
+        let [first, others @ ..] = bundle.sections.as_slice() else {
+            continue;
         };
-        table.extend(section.encode());
+        let head = BundleEntry {
+            codec: *codec,
+            // No longer than the raw bytes, whose lengths have been checked.
+            stored_bytes: u32::try_from(payload.len()).unwrap_or(u32::MAX),
+            hash: hash(&bundle.raw),
+        };
+        table.extend(first.encode());
+        table.extend(head.encode());
+        table.extend(others.iter().flat_map(|section| section.encode()));
+    }
+    let sections: usize = bundles.iter().map(|bundle| bundle.sections.len()).sum();
+    let payload: usize = stored.iter().map(|(_, payload)| payload.len()).sum();
+    let length = header::BYTES + table.len() + payload;
+    let mut head = Header::new(u32::try_from(sections).unwrap_or(u32::MAX), length as u64);
+    head.checksum = head.checksum_with(&table);
+    let mut bytes = Vec::with_capacity(length);
+    bytes.extend(head.encode());
+    bytes.extend(table);
+    for (_, payload) in stored {
         bytes.extend(payload);
     }
-    let count = u32::try_from(parts.len()).unwrap_or(u32::MAX);
-    let mut head = Header::new(count, bytes.len() as u64);
-    head.checksum = head.checksum_with(&table);
-    put(&mut bytes, 0, &head.encode());
-    put(&mut bytes, header::BYTES, &table);
     bytes
 }
 
-const _: () = assert!(
-    header::BYTES as u64 == layout::ALIGNMENT_BYTES,
-    "sections are padded to the header's size"
-);
+fn hash(raw: &[u8]) -> [u8; HASH_BYTES] {
+    field(blake3::hash(raw).as_bytes(), 0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::container::layout::MAX_SHARED_BYTES;
+
+    #[test]
+    fn a_section_has_less_than_4_gib() {
+        assert_eq!(section_length(Tag::TILE, 0xFFFF_FFFF), Ok(u32::MAX));
+        let issue = section_length(Tag::TILE, 1 << 32).unwrap_err();
+        assert_eq!(issue.code, issue::SECTION_LENGTH.code);
+    }
+
+    #[test]
+    fn small_neighbours_share_a_bundle() {
+        const { assert!(SHARED_BYTES as u64 <= MAX_SHARED_BYTES) };
+        let part = |bytes| Part::new(Tag::MIPS, vec![7; bytes]);
+        let lengths = [10, 20, SHARED_BYTES - 29, 29, SHARED_BYTES + 1, 5];
+        let parts: Vec<_> = lengths.into_iter().map(part).collect();
+        let found: Vec<usize> = bundles(parts)
+            .unwrap()
+            .iter()
+            .map(|bundle| bundle.sections.len())
+            .collect();
+        assert_eq!(found, [2, 2, 1, 1]);
+    }
+}

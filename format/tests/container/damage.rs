@@ -1,10 +1,10 @@
 //! Accidents: truncation, flipped bits, rubbish.
 
-use vtex_format::{Codec, Limits, SectionInfo, VtexFile, directory, validate};
+use vtex_format::{BundleInfo, Codec, Limits, VtexFile, directory, validate};
 
-use crate::forge::{put_together, take_apart};
+use crate::forge::{put_together, table_bytes, take_apart};
+use crate::grouped::grouped;
 use crate::sample;
-use crate::scoped::scoped;
 
 /// The sample with text long enough that some sections are packed.
 fn bytes_with_both_codecs() -> Vec<u8> {
@@ -23,7 +23,7 @@ fn every_truncation_is_refused() {
             Some(error.issue()),
             validate(part, &Limits::default()).first()
         );
-        let code = if length < 64 { 1001 } else { 1004 };
+        let code = if length < 40 { 1001 } else { 1004 };
         assert_eq!(error.issue().code, code, "{length} bytes");
     }
 }
@@ -41,7 +41,7 @@ fn every_flipped_bit_is_found_or_harmless() {
     for bytes in [
         bytes_with_both_codecs(),
         sample::outlined().to_bytes().unwrap(),
-        scoped().to_bytes().unwrap(),
+        grouped().to_bytes().unwrap(),
     ] {
         flip_every_bit(&bytes);
     }
@@ -50,14 +50,14 @@ fn every_flipped_bit_is_found_or_harmless() {
 fn flip_every_bit(bytes: &[u8]) {
     let limits = Limits::default();
     let file = VtexFile::parse(bytes, &limits).unwrap();
-    let sections = directory(bytes, &limits).unwrap().sections;
+    let bundles = directory(bytes, &limits).unwrap().bundles;
     let is_packed = |byte: usize| {
-        let holds = |section: &&SectionInfo| {
-            let start = section.offset_bytes as usize;
-            (start..start + section.stored_bytes as usize).contains(&byte)
+        let holds = |bundle: &&BundleInfo| {
+            let start = bundle.offset_bytes as usize;
+            (start..start + bundle.stored_bytes as usize).contains(&byte)
         };
-        let section = sections.iter().find(holds);
-        section.is_some_and(|section| section.codec == Codec::Zstd)
+        let bundle = bundles.iter().find(holds);
+        bundle.is_some_and(|bundle| bundle.codec == Codec::Zstd)
     };
     let mut damaged = bytes.to_vec();
     for bit in 0..8 * bytes.len() {
@@ -80,9 +80,8 @@ fn flip_every_bit(bytes: &[u8]) {
 fn every_flipped_bit_of_header_and_table_is_found() {
     let bytes = bytes_with_both_codecs();
     let limits = Limits::default();
-    let count = directory(&bytes, &limits).unwrap().sections.len();
     let mut damaged = bytes.clone();
-    for bit in 0..8 * (64 + 96 * count) {
+    for bit in 0..8 * (40 + table_bytes(&bytes)) {
         damaged[bit / 8] ^= 1 << (bit % 8);
         assert!(
             directory(&damaged, &limits).is_err(),
@@ -96,7 +95,7 @@ fn every_flipped_bit_of_header_and_table_is_found() {
 fn flipped_bits_under_right_hashes_do_no_harm() {
     // Hashes stop accidents, not intent: here the content changes and the hashes with it, so that
     // every check behind them is met. What still reads must be sound: it can be written again.
-    for file in [sample::small(), sample::outlined(), scoped()] {
+    for file in [sample::small(), sample::outlined(), grouped()] {
         flip_under_right_hashes(&file);
     }
 }
@@ -136,7 +135,7 @@ fn rubbish_is_refused() {
 
 #[test]
 fn rubbish_sections_under_right_hashes_do_no_harm() {
-    for file in [sample::small(), sample::outlined(), scoped()] {
+    for file in [sample::small(), sample::outlined(), grouped()] {
         forge_rubbish(&file);
     }
 }

@@ -3,109 +3,159 @@
 
 use vtex_format::Tag;
 
-/// A section as the forger wants it.
+const HEADER_BYTES: usize = 40;
+const SECTION_BYTES: usize = 9;
+const BUNDLE_BYTES: usize = 21;
+
+/// A section as the forger wants it, in a bundle of its own unless it is `shared`.
 #[derive(Clone)]
 pub(crate) struct Forged {
     pub(crate) tag: [u8; 4],
-    pub(crate) codec: u16,
-    pub(crate) flags: u16,
+    pub(crate) flags: u8,
+    pub(crate) raw_bytes: u32,
+    pub(crate) codec: u8,
+    /// The bytes in the file, those of a bundle without those of its shared sections.
     pub(crate) stored: Vec<u8>,
-    pub(crate) raw_bytes: u64,
-    pub(crate) hash: [u8; 32],
-    pub(crate) parts: [u32; 4],
-    pub(crate) reserved: [u8; 16],
-    /// Added to the section's rightful place, its stored bytes staying there.
-    pub(crate) offset_lie: i64,
+    /// Of the raw bytes. Where sections share the bundle the forger makes it.
+    pub(crate) hash: [u8; 16],
     /// Stands in the table instead of the stored length.
-    pub(crate) stored_lie: Option<u64>,
+    pub(crate) stored_lie: Option<u32>,
 }
 
 impl Forged {
-    /// A section stored raw with the right hash.
+    /// A critical section stored raw with the right hash.
     pub(crate) fn raw(tag: Tag, bytes: &[u8]) -> Self {
         Self {
             tag: tag.0,
-            codec: 0,
             flags: 1,
+            raw_bytes: bytes.len() as u32,
+            codec: 0,
             stored: bytes.to_vec(),
-            raw_bytes: bytes.len() as u64,
-            hash: *blake3::hash(bytes).as_bytes(),
-            parts: [0; 4],
-            reserved: [0; 16],
-            offset_lie: 0,
+            hash: hash(bytes),
             stored_lie: None,
         }
     }
 
-    /// Replaces the content, keeping name and parts.
+    /// Replaces the content, keeping the name.
     pub(crate) fn refill(&mut self, bytes: &[u8]) {
         let fresh = Self::raw(Tag(self.tag), bytes);
         *self = Self {
             flags: self.flags,
-            parts: self.parts,
             ..fresh
         };
     }
 
+    /// Puts the section into the bundle of the section before it.
+    pub(crate) fn share(&mut self) {
+        self.flags |= 2;
+    }
+
+    pub(crate) fn is_shared(&self) -> bool {
+        self.flags & 2 != 0
+    }
+
     /// The content before packing.
     pub(crate) fn content(&self) -> Vec<u8> {
-        match self.codec {
-            0 => self.stored.clone(),
-            _ => zstd::bulk::decompress(&self.stored, 1 << 24).unwrap(),
-        }
+        unpack(self.codec, &self.stored)
     }
 }
 
-/// The sections of a sound file.
+pub(crate) fn hash(raw: &[u8]) -> [u8; 16] {
+    blake3::hash(raw).as_bytes()[..16].try_into().unwrap()
+}
+
+fn unpack(codec: u8, stored: &[u8]) -> Vec<u8> {
+    match codec {
+        0 => stored.to_vec(),
+        _ => zstd::bulk::decompress(stored, 1 << 24).unwrap(),
+    }
+}
+
+fn word(bytes: &[u8], at: usize) -> u32 {
+    u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap())
+}
+
+/// The sections of a sound file, each in a bundle of its own: those that shared one are stored raw.
 pub(crate) fn take_apart(bytes: &[u8]) -> Vec<Forged> {
-    let count = u32::from_le_bytes(bytes[12..16].try_into().unwrap());
-    let entries = bytes[64..].chunks_exact(96).take(count as usize);
-    let forged = entries.map(|entry| {
-        let word = |at: usize| u32::from_le_bytes(entry[at..at + 4].try_into().unwrap());
-        let long = |at: usize| u64::from_le_bytes(entry[at..at + 8].try_into().unwrap());
-        let (start, length) = (long(8) as usize, long(16) as usize);
-        Forged {
-            tag: entry[..4].try_into().unwrap(),
-            codec: word(4) as u16,
-            flags: (word(4) >> 16) as u16,
-            stored: bytes[start..start + length].to_vec(),
-            raw_bytes: long(24),
-            hash: entry[32..64].try_into().unwrap(),
-            parts: [word(64), word(68), word(72), word(76)],
-            reserved: entry[80..96].try_into().unwrap(),
-            offset_lie: 0,
-            stored_lie: None,
+    let mut bundles: Vec<Vec<Forged>> = Vec::new();
+    let mut at = HEADER_BYTES;
+    for _ in 0..word(bytes, 12) {
+        let entry = &bytes[at..];
+        at += SECTION_BYTES;
+        let mut section = Forged::raw(Tag(entry[..4].try_into().unwrap()), &[]);
+        section.flags = entry[4] & !2;
+        section.raw_bytes = word(entry, 5);
+        if entry[4] & 2 != 0 {
+            bundles.last_mut().unwrap().push(section);
+            continue;
         }
-    });
-    forged.collect()
+        let head = &bytes[at..];
+        at += BUNDLE_BYTES;
+        section.codec = head[0];
+        section.hash = head[5..21].try_into().unwrap();
+        section.stored = vec![0; word(head, 1) as usize];
+        bundles.push(vec![section]);
+    }
+    for bundle in &mut bundles {
+        let stored = &bytes[at..at + bundle[0].stored.len()];
+        at += stored.len();
+        if bundle.len() == 1 {
+            bundle[0].stored = stored.to_vec();
+            continue;
+        }
+        let content = unpack(bundle[0].codec, stored);
+        let mut rest = content.as_slice();
+        for section in bundle {
+            let (own, behind) = rest.split_at(section.raw_bytes as usize);
+            section.refill(own);
+            rest = behind;
+        }
+    }
+    bundles.concat()
 }
 
 /// A file with these sections and a right checksum.
 pub(crate) fn put_together(sections: &[Forged]) -> Vec<u8> {
-    let mut bytes = vec![0; 64 + 96 * sections.len()];
     let mut table = Vec::new();
-    for section in sections {
-        bytes.resize(bytes.len().next_multiple_of(64), 0);
-        let offset = (bytes.len() as u64).wrapping_add_signed(section.offset_lie);
-        let stored = section.stored_lie.unwrap_or(section.stored.len() as u64);
+    let mut payload = Vec::new();
+    for (index, section) in sections.iter().enumerate() {
+        let rest = &sections[index + 1..];
+        let sharing = rest.iter().take_while(|section| section.is_shared());
+        let with: Vec<&Forged> = [section].into_iter().chain(sharing).collect();
+        let stored: Vec<u8> = with.iter().flat_map(|s| s.stored.clone()).collect();
         table.extend(section.tag);
-        table.extend(section.codec.to_le_bytes());
-        table.extend(section.flags.to_le_bytes());
-        table.extend(
-            [offset, stored, section.raw_bytes]
-                .map(u64::to_le_bytes)
-                .as_flattened(),
-        );
-        table.extend(section.hash);
-        table.extend(section.parts.map(u32::to_le_bytes).as_flattened());
-        table.extend(section.reserved);
-        bytes.extend(&section.stored);
+        table.push(section.flags);
+        table.extend(section.raw_bytes.to_le_bytes());
+        if section.is_shared() {
+            continue;
+        }
+        let length = section.stored_lie.unwrap_or(stored.len() as u32);
+        table.push(section.codec);
+        table.extend(length.to_le_bytes());
+        table.extend(if with.len() == 1 {
+            section.hash
+        } else {
+            hash(&stored)
+        });
+        payload.extend(stored);
     }
-    bytes[64..64 + table.len()].copy_from_slice(&table);
-    bytes[..12].copy_from_slice(b"\x89VTX\r\n\x1a\n\x01\0\0\0");
-    bytes[12..16].copy_from_slice(&(sections.len() as u32).to_le_bytes());
+    let mut bytes = b"\x89VTX\r\n\x1a\n\x02\0\0\0".to_vec();
+    bytes.extend((sections.len() as u32).to_le_bytes());
+    bytes.resize(HEADER_BYTES, 0);
+    bytes.extend(table);
+    bytes.extend(payload);
     seal(&mut bytes);
     bytes
+}
+
+/// Bytes of the section table of a file.
+pub(crate) fn table_bytes(bytes: &[u8]) -> usize {
+    let mut at = HEADER_BYTES;
+    for _ in 0..word(bytes, 12) {
+        let shared = bytes[at + 4] & 2 != 0;
+        at += SECTION_BYTES + if shared { 0 } else { BUNDLE_BYTES };
+    }
+    at - HEADER_BYTES
 }
 
 /// Puts the right length and checksum into a header.
@@ -113,11 +163,6 @@ pub(crate) fn seal(bytes: &mut [u8]) {
     let length = bytes.len() as u64;
     bytes[16..24].copy_from_slice(&length.to_le_bytes());
     bytes[24..40].fill(0);
-    let count = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
-    // The checksum takes reserved bytes as zero, whatever stands there.
-    let mut hasher = blake3::Hasher::new();
-    hasher.update(&bytes[..40]).update(&[0; 24]);
-    hasher.update(&bytes[64..64 + 96 * count]);
-    let checksum = hasher.finalize();
-    bytes[24..40].copy_from_slice(&checksum.as_bytes()[..16]);
+    let checksum = hash(&bytes[..HEADER_BYTES + table_bytes(bytes)]);
+    bytes[24..40].copy_from_slice(&checksum);
 }

@@ -6,7 +6,7 @@ use vtex_format::{Features, Gradient, GradientShape, GradientStop, Spread};
 use crate::cases::{FileCase, ValueCase, cut};
 
 /// Place of `GRAD` among the sections of the sample.
-const GRAD: usize = 5;
+const GRAD: usize = 4;
 
 /// What the bytes of `GRAD` can lack.
 pub(crate) const GRADIENT_FILES: &[FileCase] = &[

@@ -5,7 +5,7 @@ use vtex_format::{StoredOutlines, Tag, VtexFile};
 use crate::cases::{FileCase, META, ValueCase, cut, patch};
 use crate::forge::Forged;
 
-const OUTL: usize = 11;
+const OUTL: usize = 10;
 
 /// For files made from the sample with outlines.
 pub(crate) const OUTLINED_CASES: &[FileCase] = &[

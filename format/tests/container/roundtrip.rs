@@ -67,7 +67,6 @@ fn every_tag_is_there_in_file_order() {
     let expected = [
         Tag::META,
         Tag::SPEC,
-        Tag::SHDR,
         Tag::PROV,
         Tag::PANT,
         Tag::GRAD,
@@ -77,6 +76,7 @@ fn every_tag_is_there_in_file_order() {
         Tag::CELL,
         Tag::ENTR,
         Tag::CURV,
+        Tag::SHDR,
         Tag::TILE,
         Tag::MIPS,
     ];
@@ -92,27 +92,38 @@ fn coarse_levels_of_all_images_come_first() {
         .sections
         .iter()
         .filter(|section| section.tag == Tag::MIPS)
-        .map(|section| (section.mip, section.image, section.raw_bytes))
+        .map(|section| section.raw_bytes / 4)
         .collect();
-    // 5 x 3 has levels 5x3, 2x1, 1x1; 1 x 2 has 1x2, 1x1.
-    assert_eq!(
-        levels,
-        [(2, 0, 4), (1, 0, 8), (1, 1, 4), (0, 0, 60), (0, 1, 8)]
-    );
+    // 70 x 1 has one level of more than 64 texels, and 35, 17, 8, 4, 2, 1. 1 x 2 has 2 and 1.
+    assert_eq!(levels, [67, 3, 70]);
 }
 
 #[test]
-fn what_shrinks_is_packed_and_what_does_not_is_not() {
+fn what_shrinks_is_packed_and_what_is_large_has_a_bundle_of_its_own() {
     let mut file = sample::small();
-    file.shader.wgsl_fragment = "let zero = 0.0;\n".repeat(100);
-    let bytes = file.to_bytes().unwrap();
-    let directory = directory(&bytes, &Limits::default()).unwrap();
-    let codec = |tag| {
-        let section = directory.sections.iter().find(|section| section.tag == tag);
-        section.unwrap().codec
+    let packed = |file: &VtexFile| {
+        let bytes = file.to_bytes().unwrap();
+        let directory = directory(&bytes, &Limits::default()).unwrap();
+        let bundles = directory.bundles.iter();
+        let name = |bundle| directory.bundle_sections(bundle)[0].tag;
+        let found: Vec<_> = bundles
+            .map(|bundle| (name(bundle), bundle.section_count, bundle.codec))
+            .collect();
+        found
     };
-    assert_eq!(codec(Tag::SHDR), Codec::Zstd);
-    assert_eq!(codec(Tag::CELL), Codec::Raw);
+    assert_eq!(packed(&file), [(Tag::META, 16, Codec::Zstd)]);
+    let noise = |i: u32| {
+        u32::from_le_bytes(
+            blake3::hash(&i.to_le_bytes()).as_bytes()[..4]
+                .try_into()
+                .unwrap(),
+        )
+    };
+    file.shader.batch_spirv = (0..10_000).map(noise).collect();
+    let [records, shader, texels] = packed(&file).try_into().unwrap();
+    assert_eq!(records, (Tag::META, 11, Codec::Zstd));
+    assert_eq!(shader, (Tag::SHDR, 1, Codec::Raw));
+    assert_eq!(texels, (Tag::TILE, 4, Codec::Zstd));
 }
 
 #[test]
@@ -142,14 +153,8 @@ fn many_tiles_are_split_at_layers() {
         .sections
         .iter()
         .filter(|section| section.tag == Tag::TILE)
-        .map(|section| {
-            (
-                section.layer_first,
-                section.layer_count,
-                section.raw_bytes / 27,
-            )
-        })
+        .map(|section| section.raw_bytes / 27)
         .collect();
-    assert_eq!(parts, [(0, 2, 130_000), (2, 1, 50_000)]);
+    assert_eq!(parts, [130_000, 50_000]);
     assert_eq!(VtexFile::parse(&bytes, &Limits::default()).unwrap(), file);
 }

@@ -75,7 +75,7 @@ pub(crate) fn small() -> VtexFile {
         curves: [record(1, 0, 0), record(0, 2, 0)].concat(),
         tiles: tiles(3 * 9),
         images: vec![
-            image([0.0, 0.0, 1.0, 1.0], [5, 3]),
+            image([0.0, 0.0, 1.0, 1.0], [70, 1]),
             image([0.25, 0.0, 0.5, 1.0], [1, 2]),
         ],
         provenance: Some(provenance(4)),
@@ -337,7 +337,7 @@ fn any_image(u: &mut Unstructured<'_>) -> Result<Image> {
     let rect = *u.choose(&[[0.0, 0.0, 1.0, 1.0], [-1.0, 0.5, 0.0, 0.75]])?;
     Ok(image(
         rect,
-        [u.int_in_range(1..=40)?, u.int_in_range(1..=40)?],
+        [u.int_in_range(1..=90)?, u.int_in_range(1..=40)?],
     ))
 }
 

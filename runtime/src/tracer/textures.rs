@@ -4,7 +4,7 @@ use vtex_format::VtexFile;
 
 use crate::{LoadOptions, RuntimeError};
 
-/// Several textures in one run of words.
+/// Several textures in one range of words.
 #[derive(Debug, Default)]
 pub(super) struct PackedTextures {
     /// All words.

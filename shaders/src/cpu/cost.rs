@@ -2,12 +2,12 @@
 
 use super::picture::picture;
 use super::{Lookup, Sampler};
-use crate::layout::item;
+use crate::layout::cmd;
 
 /// Bytes of a fine cell's word.
 const CELL_BYTES: u32 = 4;
-/// Bytes of an item.
-const ITEM_BYTES: u32 = 4 * item::WORDS;
+/// Bytes of a command.
+const COMMAND_BYTES: u32 = 4 * cmd::WORDS;
 /// Four packed texels of a tile.
 const TILE_BYTES: u32 = 16;
 /// The half of a paint that a lookup reads, linear or encoded.
@@ -32,24 +32,24 @@ pub struct LookupCost {
 pub(super) trait Observer {
     /// A fine cell.
     fn cell(&mut self);
-    /// An item with this last word.
-    fn item(&mut self, tail: u32);
-    /// The paint or image of an entry with this last word.
-    fn paint(&mut self, head: u32);
+    /// A command with this tag.
+    fn command(&mut self, tag: u32);
+    /// The paint or image of an entry with this tag.
+    fn paint(&mut self, tag: u32);
 }
 
 /// Nobody watches.
 impl Observer for () {
     fn cell(&mut self) {}
-    fn item(&mut self, _: u32) {}
+    fn command(&mut self, _: u32) {}
     fn paint(&mut self, _: u32) {}
 }
 
-/// The cost so far, and the items of the entry that is being read.
+/// The cost so far, and the commands of the entry that is being read.
 #[derive(Default)]
 struct Counter {
     cost: LookupCost,
-    items: u32,
+    commands: u32,
 }
 
 impl Observer for Counter {
@@ -57,25 +57,25 @@ impl Observer for Counter {
         self.cost.bytes += CELL_BYTES;
     }
 
-    fn item(&mut self, tail: u32) {
-        self.items += 1;
-        self.cost.bytes += ITEM_BYTES;
-        if tail & item::END_BIT != 0 {
+    fn command(&mut self, tag: u32) {
+        self.commands += 1;
+        self.cost.bytes += COMMAND_BYTES;
+        if tag & cmd::END_BIT != 0 {
             self.cost.entries += 1;
-            match tail & item::KIND_MASK {
-                item::CURVES => self.cost.segments += self.items,
-                item::MSDF => {
+            match tag & cmd::KIND_MASK {
+                cmd::CURVES => self.cost.segments += self.commands,
+                cmd::MSDF => {
                     self.cost.tiles += 1;
                     self.cost.bytes += TILE_BYTES;
                 }
                 _ => {}
             }
-            self.items = 0;
+            self.commands = 0;
         }
     }
 
-    fn paint(&mut self, head: u32) {
-        let image = head & item::KIND_MASK == item::IMAGE;
+    fn paint(&mut self, tag: u32) {
+        let image = tag & cmd::KIND_MASK == cmd::IMAGE;
         self.cost.bytes += if image { IMAGE_BYTES } else { PAINT_BYTES };
     }
 }

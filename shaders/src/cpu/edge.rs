@@ -3,7 +3,7 @@
 
 use super::samples::Samples;
 use super::{Sampler, msdf};
-use crate::layout::item;
+use crate::layout::cmd;
 
 /// The windings about the outline of the entry that a walk is at.
 pub(super) struct Edge<S: Samples> {
@@ -17,24 +17,24 @@ impl<S: Samples> Edge<S> {
         }
     }
 
-    /// An item of the entry.
-    pub(super) fn wind(&mut self, samples: &S, item: [u32; 4]) {
-        samples.wind(&mut self.winding, item);
+    /// A command of the entry.
+    pub(super) fn wind(&mut self, samples: &S, command: [u32; 4]) {
+        samples.wind(&mut self.winding, command);
     }
 
-    /// The samples that the entry with this last item covers; the next entry begins. Of those that
-    /// are not in `live` nothing is said.
+    /// The samples that the entry with this last command covers; the next entry begins. Of those
+    /// that are not in `live` nothing is said.
     pub(super) fn covered(
         &mut self,
         sampler: &Sampler<'_>,
         samples: &S,
-        item: [u32; 4],
+        command: [u32; 4],
         live: u32,
     ) -> u32 {
         let winding = std::mem::take(&mut self.winding);
-        match item[3] & item::KIND_MASK {
-            item::CURVES => samples.filled(winding, item[3]),
-            item::MSDF => within(sampler, samples, item[0], 0.0, live),
+        match command[3] & cmd::KIND_MASK {
+            cmd::CURVES => samples.filled(winding, command[3]),
+            cmd::MSDF => within(sampler, samples, command[0], 0.0, live),
             _ => u32::MAX,
         }
     }
@@ -44,15 +44,21 @@ impl<S: Samples> Edge<S> {
 pub(super) fn ring<S: Samples>(
     sampler: &Sampler<'_>,
     samples: &S,
-    item: [u32; 4],
+    command: [u32; 4],
     covered: u32,
     live: u32,
 ) -> u32 {
     let s = &sampler.settings;
-    if !s.outline || item[3] & item::KIND_MASK != item::MSDF {
+    if !s.outline || command[3] & cmd::KIND_MASK != cmd::MSDF {
         return 0;
     }
-    within(sampler, samples, item[0], -s.outline_width, live & !covered) & !covered
+    within(
+        sampler,
+        samples,
+        command[0],
+        -s.outline_width,
+        live & !covered,
+    ) & !covered
 }
 
 /// The samples of `live` whose distance, inside positive, is greater than `least`.
@@ -70,28 +76,28 @@ fn within<S: Samples>(sampler: &Sampler<'_>, samples: &S, tile: u32, least: f32,
     mask
 }
 
-/// The samples that a test or jump with this last word passes on, when it covers `covered`.
-pub(super) const fn jumps(tail: u32, covered: u32) -> u32 {
-    if tail & item::OPAQUE_BIT != 0 {
+/// The samples for which a branch or jump with this tag is taken, when it covers `covered`.
+pub(super) const fn taken(tag: u32, covered: u32) -> u32 {
+    if tag & cmd::OPAQUE_BIT != 0 {
         covered
     } else {
         !covered
     }
 }
 
-/// Where a walk ends: behind every item.
+/// Where a walk ends: behind every command.
 pub(super) const BEYOND: u32 = u32::MAX;
 
-/// Where a control item passes over items to, when `next` follows it.
-pub(super) const fn target(tail: u32, next: u32) -> u32 {
-    match tail & item::INDEX_MASK {
+/// Where a control command branches to, when `next` follows it.
+pub(super) const fn target(tag: u32, next: u32) -> u32 {
+    match tag & cmd::INDEX_MASK {
         0 => BEYOND,
-        over => next.wrapping_add(over.wrapping_mul(item::WORDS)),
+        over => next.wrapping_add(over.wrapping_mul(cmd::WORDS)),
     }
 }
 
-/// Whether a control item with this last word is a test or a jump.
-pub(super) const fn is_test(tail: u32) -> bool {
-    let op = tail & item::CONTROL_MASK;
-    tail & item::KIND_MASK == item::CURVES || op == item::JUMP
+/// Whether a control command with this tag is a branch or a jump.
+pub(super) const fn is_branch(tag: u32) -> bool {
+    let op = tag & cmd::CONTROL_MASK;
+    tag & cmd::KIND_MASK == cmd::CURVES || op == cmd::JUMP
 }

@@ -1,17 +1,17 @@
-//! Twin of `vtex/groups.wgsl`: lists that hold groups, whose items lie back to front. One walk,
-//! sRGB-encoded, with what lies behind each open group on a stack.
+//! Twin of `vtex/groups.wgsl`: lists that hold groups, whose commands lie back to front. One walk,
+//! sRGB-encoded, with what lies behind each open group on a blend stack.
 
-use vtex_format::MAX_FRAMES;
+use vtex_format::MAX_BLEND_DEPTH;
 
 use super::blend::blend;
+use super::brush::brush;
 use super::color::decode_premultiplied;
 use super::cost::Observer;
-use super::edge::{BEYOND, Edge, is_test, jumps, target};
+use super::edge::{BEYOND, Edge, is_branch, taken, target};
 use super::samples::Samples;
-use super::source::source;
-use super::walk::Answer;
+use super::walk::Resolved;
 use super::{Lookup, Sampler};
-use crate::layout::{item, mask};
+use crate::layout::{cmd, mask};
 
 /// What the list shows to those samples of `live` that do at every edge as the first of them does.
 pub(super) fn groups<S: Samples>(
@@ -21,56 +21,56 @@ pub(super) fn groups<S: Samples>(
     samples: &S,
     mut live: u32,
     observer: &mut impl Observer,
-) -> Answer {
+) -> Resolved {
     let leader = 1 << live.trailing_zeros();
-    let mut stack = Stack::new();
+    let mut stack = BlendStack::new();
     let mut edge = Edge::<S>::new();
     let mut at = first;
-    for _ in 0..item::LIMIT {
+    for _ in 0..cmd::LIMIT {
         if sampler.is_past(at) {
             break;
         }
         let words: [u32; 4] = sampler.words(at);
-        let tail = words[3];
-        at = at.wrapping_add(item::WORDS);
+        let tag = words[3];
+        at = at.wrapping_add(cmd::WORDS);
         edge.wind(samples, words);
-        observer.item(tail);
-        if tail & item::END_BIT == 0 {
+        observer.command(tag);
+        if tag & cmd::END_BIT == 0 {
             continue;
         }
         let covered = edge.covered(sampler, samples, words, live);
         let next = at;
-        if tail & item::LAST_BIT != 0 {
+        if tag & cmd::LAST_BIT != 0 {
             at = BEYOND;
         }
-        if tail & item::CONTROL_BIT != 0 {
-            let passes = if is_test(tail) {
-                let jumps = jumps(tail, covered);
-                let passes = jumps & leader != 0;
-                live &= if passes { jumps } else { !jumps };
-                passes
+        if tag & cmd::CONTROL_BIT != 0 {
+            let branches = if is_branch(tag) {
+                let taken = taken(tag, covered);
+                let leads = taken & leader != 0;
+                live &= if leads { taken } else { !taken };
+                leads
             } else {
                 stack.control(words)
             };
-            if passes {
-                at = target(tail, next);
+            if branches {
+                at = target(tag, next);
             }
         } else if covered & leader != 0 {
             live &= covered;
-            observer.paint(tail);
-            let shown = source(sampler, tail, samples.uv(live), lookup).encoded;
-            let through = 1.0 - shown[3];
-            stack.color = std::array::from_fn(|i| shown[i] + through * stack.color[i]);
+            observer.paint(tag);
+            let brush = brush(sampler, tag, samples.uv(live), lookup).encoded;
+            let through = 1.0 - brush[3];
+            stack.color = std::array::from_fn(|i| brush[i] + through * stack.color[i]);
         } else {
             live &= !covered;
         }
     }
-    Answer::of(decode_premultiplied(stack.color), live)
+    Resolved::of(decode_premultiplied(stack.color), live)
 }
 
-/// Of an open group.
+/// A level of the blend stack: an open group or mask.
 #[derive(Clone, Copy, Debug)]
-struct Saved {
+struct BlendLevel {
     /// What lies behind it.
     color: [f32; 4],
     /// What its masks make of its opacity.
@@ -78,17 +78,17 @@ struct Saved {
 }
 
 /// The colour so far and what lies behind the open groups; all sRGB-encoded, premultiplied.
-struct Stack {
+struct BlendStack {
     color: [f32; 4],
     /// Of masks whose group has not begun.
     weight: f32,
     depth: usize,
-    saved: [Saved; MAX_FRAMES as usize],
+    levels: [BlendLevel; MAX_BLEND_DEPTH as usize],
 }
 
-impl Stack {
+impl BlendStack {
     const fn new() -> Self {
-        let nothing = Saved {
+        let nothing = BlendLevel {
             color: [0.0; 4],
             weight: 0.0,
         };
@@ -96,29 +96,29 @@ impl Stack {
             color: [0.0; 4],
             weight: 1.0,
             depth: 0,
-            saved: [nothing; MAX_FRAMES as usize],
+            levels: [nothing; MAX_BLEND_DEPTH as usize],
         }
     }
 
-    /// Whether the walk is to pass over what follows the control item.
-    fn control(&mut self, item: [u32; 4]) -> bool {
-        match item[3] & item::CONTROL_MASK {
-            item::OPEN => {
-                self.open(item[0] != 0);
+    /// Whether the walk branches over what follows the control command.
+    fn control(&mut self, command: [u32; 4]) -> bool {
+        match command[3] & cmd::CONTROL_MASK {
+            cmd::OPEN => {
+                self.open(command[0] != 0);
                 false
             }
-            item::CLOSE => {
-                self.close(item);
+            cmd::CLOSE => {
+                self.close(command);
                 false
             }
-            _ => self.mask(item[0]),
+            _ => self.mask(command[0]),
         }
     }
 
     fn open(&mut self, isolated: bool) {
         // No list that a validator lets in has more groups.
-        if let Some(saved) = self.saved.get_mut(self.depth) {
-            *saved = Saved {
+        if let Some(level) = self.levels.get_mut(self.depth) {
+            *level = BlendLevel {
                 color: self.color,
                 weight: self.weight,
             };
@@ -130,38 +130,38 @@ impl Stack {
         }
     }
 
-    fn pop(&mut self) -> Option<Saved> {
+    fn pop(&mut self) -> Option<BlendLevel> {
         self.depth = self.depth.checked_sub(1)?;
-        Some(self.saved[self.depth])
+        Some(self.levels[self.depth])
     }
 
-    fn close(&mut self, item: [u32; 4]) {
+    fn close(&mut self, command: [u32; 4]) {
         let group = self.color;
-        let Some(saved) = self.pop() else {
+        let Some(level) = self.pop() else {
             return;
         };
-        let weight = f32::from_bits(item[0]) * saved.weight;
-        self.color = if item[2] != 0 {
-            over(item[1], saved.color, group.map(|c| weight * c))
+        let weight = f32::from_bits(command[0]) * level.weight;
+        self.color = if command[2] != 0 {
+            over(command[1], level.color, group.map(|c| weight * c))
         } else if weight >= 1.0 {
             group
         } else {
-            std::array::from_fn(|i| (1.0 - weight) * saved.color[i] + weight * group[i])
+            std::array::from_fn(|i| (1.0 - weight) * level.color[i] + weight * group[i])
         };
     }
 
     fn mask(&mut self, kind: u32) -> bool {
         let content = self.color;
-        let shown = match kind {
+        let value = match kind {
             mask::LUMINANCE => luminance(content),
             mask::LINEAR_LUMINANCE => luminance(decode_premultiplied(content)),
             _ => content[3],
         };
-        let Some(saved) = self.pop() else {
+        let Some(level) = self.pop() else {
             return false;
         };
-        self.color = saved.color;
-        let weight = saved.weight * shown;
+        self.color = level.color;
+        let weight = level.weight * value;
         let nothing = weight <= 0.0;
         self.weight = if nothing { 1.0 } else { weight };
         nothing

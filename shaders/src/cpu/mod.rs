@@ -5,10 +5,10 @@
 //! Where the WGSL is specialised by choosing modules, the twin asks the header.
 
 mod blend;
+mod brush;
 pub mod color;
 mod cost;
 mod edge;
-mod flat;
 mod gradient;
 mod groups;
 mod image;
@@ -26,7 +26,7 @@ mod sample;
 mod samples;
 mod segment;
 mod settings;
-mod source;
+mod uniform_color;
 mod walk;
 mod words;
 
@@ -71,9 +71,9 @@ impl<'a> Sampler<'a> {
     }
 }
 
-/// Whether the entry whose items `words` start with fills at `p`, in units of its cell's box.
+/// Whether the entry whose commands `words` start with fills at `p`, in units of its cell's box.
 #[cfg(test)]
-pub(crate) fn items_fill(words: &[u32], p: [f32; 2]) -> bool {
+pub(crate) fn commands_fill(words: &[u32], p: [f32; 2]) -> bool {
     let sampler = Sampler::new(words);
     let point = samples::Point {
         uv: [0.0; 2],
@@ -81,13 +81,13 @@ pub(crate) fn items_fill(words: &[u32], p: [f32; 2]) -> bool {
         p,
     };
     let mut edge = edge::Edge::new();
-    let items = words.as_chunks::<4>().0;
-    let last = items
+    let commands = words.as_chunks::<4>().0;
+    let last = commands
         .iter()
-        .position(|item| item[3] & crate::layout::item::END_BIT != 0);
-    let last = last.unwrap_or(items.len() - 1);
-    for &item in &items[..=last] {
-        edge.wind(&point, item);
+        .position(|command| command[3] & crate::layout::cmd::END_BIT != 0);
+    let last = last.unwrap_or(commands.len() - 1);
+    for &command in &commands[..=last] {
+        edge.wind(&point, command);
     }
-    edge.covered(&sampler, &point, items[last], 1) != 0
+    edge.covered(&sampler, &point, commands[last], 1) != 0
 }

@@ -1,13 +1,13 @@
 //! Twin of `vtex/paper.wgsl`: the filter of \[SFG22\], as a baseline.
 
+use super::brush::brush;
 use super::color;
-use super::edge::{Edge, jumps, target};
+use super::edge::{Edge, taken, target};
 use super::math::smoothstep;
 use super::samples::Samples;
-use super::source::source;
-use super::walk::Answer;
+use super::walk::Resolved;
 use super::{Lookup, Sampler, msdf};
-use crate::layout::item;
+use crate::layout::cmd;
 
 /// What a list shows, front to back. The edges of MSDFs are ramps of constant width (eq. 1) with
 /// coverage as alpha, and may have a ring (eq. 2); other edges are hard.
@@ -16,25 +16,25 @@ pub(super) fn paper<S: Samples>(
     lookup: &Lookup,
     first: u32,
     samples: &S,
-) -> Answer {
+) -> Resolved {
     let s = &sampler.settings;
     let mut edge = Edge::<S>::new();
     let mut color = [0.0_f32; 4];
     let mut at = first;
-    for _ in 0..item::LIMIT {
+    for _ in 0..cmd::LIMIT {
         if color[3] >= 1.0 || sampler.is_past(at) {
             break;
         }
         let words: [u32; 4] = sampler.words(at);
-        let tail = words[3];
-        at = at.wrapping_add(item::WORDS);
+        let tag = words[3];
+        at = at.wrapping_add(cmd::WORDS);
         edge.wind(samples, words);
-        if tail & item::END_BIT == 0 {
+        if tag & cmd::END_BIT == 0 {
             continue;
         }
         let mut inner = 1.0;
         let mut outer = 0.0;
-        if tail & item::KIND_MASK == item::MSDF {
+        if tag & cmd::KIND_MASK == cmd::MSDF {
             let distance = msdf::distance(sampler, words[0], samples.centre());
             inner = ramp(sampler, distance);
             if s.outline {
@@ -43,28 +43,28 @@ pub(super) fn paper<S: Samples>(
         } else if edge.covered(sampler, samples, words, 1) & 1 == 0 {
             inner = 0.0;
         }
-        if tail & item::CONTROL_BIT != 0 {
-            if jumps(tail, u32::from(inner > 0.0)) & 1 != 0 {
-                at = target(tail, at);
+        if tag & cmd::CONTROL_BIT != 0 {
+            if taken(tag, u32::from(inner > 0.0)) & 1 != 0 {
+                at = target(tag, at);
                 continue;
             }
         } else {
             // Shape and ring exclude each other: both lie over what is behind.
             let mut entry = [0.0; 4];
-            for (share, head) in [(inner, tail), ((outer - inner).max(0.0), s.outline_head)] {
+            for (share, tag) in [(inner, tag), ((outer - inner).max(0.0), s.outline_tag)] {
                 if share > 0.0 {
-                    let shown = source(sampler, head, samples.uv(1), lookup).encoded;
-                    entry = std::array::from_fn(|i| entry[i] + share * shown[i]);
+                    let brush = brush(sampler, tag, samples.uv(1), lookup).encoded;
+                    entry = std::array::from_fn(|i| entry[i] + share * brush[i]);
                 }
             }
             let through = 1.0 - color[3];
             color = std::array::from_fn(|i| color[i] + through * entry[i]);
         }
-        if tail & item::LAST_BIT != 0 {
+        if tag & cmd::LAST_BIT != 0 {
             break;
         }
     }
-    Answer::of(color::decode_premultiplied(color), 1)
+    Resolved::of(color::decode_premultiplied(color), 1)
 }
 
 /// Eq. 1: a smoothstep of half width S about the edge.

@@ -6,12 +6,12 @@ use vtex_format::Features;
 use super::cost::Observer;
 use super::math::{clamp, to_f32, to_u32};
 use super::plane::Vec2;
-use super::rows::{CellRows, Rows, reach};
+use super::rows::{CellRows, Phase, Rows, extent};
 use super::samples::{Point, Samples};
-use super::walk::{Answer, walk};
+use super::walk::{Resolved, walk};
 use super::{Lookup, Sampler, groups, paint, paper};
 use crate::layout::rows::{EVERY, SAMPLES};
-use crate::layout::{cell, filter, item};
+use crate::layout::{cell, cmd, filter};
 
 /// Farther than any place in cells.
 const FAR: f32 = 1e30;
@@ -50,7 +50,7 @@ pub(super) fn point(
         q,
         p: q.map(|q| q * units + margin),
     };
-    shown(sampler, lookup, word, &samples, 1, observer).sum
+    lists(sampler, lookup, word, &samples, 1, observer).sum
 }
 
 /// The mean of what the cells show to a footprint's samples, pass by pass.
@@ -67,7 +67,7 @@ fn average(
     if pass.whole && pass.word >> cell::TAG_SHIFT < cell::LIST {
         return point(sampler, lookup, pass.word, canvas.centre, observer);
     }
-    canvas.rows = Rows::new(canvas.centre, lookup.axes);
+    canvas.rows = Rows::new(canvas.centre, lookup.axes, Phase::new(p, lookup.axes));
     let mut sum = [0.0; 4];
     let mut count = 0.0;
     let mut live = EVERY;
@@ -82,19 +82,18 @@ fn average(
         if pass.beyond {
             live &= !mask;
         } else {
-            let Canvas { rows, home, .. } = &canvas;
-            let samples = CellRows::new(sampler, rows, *home, pass.cell, canvas.centre);
-            let answer = shown(sampler, lookup, pass.word, &samples, mask, observer);
-            sum = std::array::from_fn(|i| sum[i] + answer.sum[i]);
-            count += to_f32(answer.done.count_ones());
-            live &= !answer.done;
+            let samples = CellRows::new(sampler, lookup, &canvas.rows, pass.cell, canvas.centre);
+            let resolved = lists(sampler, lookup, pass.word, &samples, mask, observer);
+            sum = std::array::from_fn(|i| sum[i] + resolved.sum[i]);
+            count += to_f32(resolved.done.count_ones());
+            live &= !resolved.done;
         }
         if live == 0 {
             if count > 0.0 {
                 break;
             }
             // None is on the canvas: the lookup's own place stands for all.
-            canvas.rows = Rows::new(canvas.centre, [0.0; 4]);
+            canvas.rows = Rows::new(canvas.centre, [0.0; 4], Phase::default());
             canvas.low = [-FAR; 2];
             canvas.high = [FAR; 2];
             live = EVERY;
@@ -113,7 +112,7 @@ struct Canvas {
     /// That corner.
     home: Vec2,
     centre: Vec2,
-    reach: Vec2,
+    extent: Vec2,
     /// Not made before they are needed.
     rows: Rows,
     /// The canvas.
@@ -143,7 +142,7 @@ impl Canvas {
         Self {
             home,
             centre,
-            reach: reach(lookup.axes),
+            extent: extent(lookup.axes),
             rows: Rows::default(),
             low,
             high: [0, 1].map(|i| s.scale[i] + low[i]),
@@ -158,8 +157,8 @@ impl Canvas {
         let cell = [0, 1].map(|i| (fine[i] * s.cell_per_fine).floor() - self.home[i]);
         // A list serves what is near, as far as its cell of the file goes.
         let listed = word >> cell::TAG_SHIFT >= cell::LIST;
-        let room = to_f32(word >> cell::ROOM_SHIFT & cell::ROOM_MASK);
-        let around = if listed { OVERLAP } else { room } * s.cell_per_fine;
+        let clearance = to_f32(word >> cell::CLEARANCE_SHIFT & cell::CLEARANCE_MASK);
+        let around = if listed { OVERLAP } else { clearance } * s.cell_per_fine;
         let mut pass = Pass {
             word,
             cell,
@@ -176,8 +175,8 @@ impl Canvas {
             let corner = fine[i] * s.cell_per_fine - self.home[i];
             pass.low[i] = pass.low[i].max(corner - around);
             pass.high[i] = pass.high[i].min(corner + around + s.cell_per_fine);
-            pass.whole &= pass.low[i] <= self.centre[i] - self.reach[i];
-            pass.whole &= self.centre[i] + self.reach[i] < pass.high[i];
+            pass.whole &= pass.low[i] <= self.centre[i] - self.extent[i];
+            pass.whole &= self.centre[i] + self.extent[i] < pass.high[i];
         }
         let [before, behind] = [
             [0, 1].map(|i| place[i] < self.low[i]),
@@ -203,7 +202,7 @@ pub(super) fn places(sampler: &Sampler<'_>, lookup: &Lookup) -> Vec<Vec2> {
         high,
         ..
     } = Canvas::new(sampler, lookup, p);
-    let rows = Rows::new(centre, lookup.axes);
+    let rows = Rows::new(centre, lookup.axes, Phase::new(p, lookup.axes));
     let samples = (0..SAMPLES).map(|index| rows.place(index));
     let on = |place: &Vec2| (0..2).all(|i| low[i] <= place[i] && place[i] < high[i]);
     let mut places: Vec<Vec2> = samples.filter(on).collect();
@@ -215,30 +214,30 @@ pub(super) fn places(sampler: &Sampler<'_>, lookup: &Lookup) -> Vec<Vec2> {
 }
 
 /// What a fine cell with `word` shows to the samples of `live`.
-fn shown<S: Samples>(
+fn lists<S: Samples>(
     sampler: &Sampler<'_>,
     lookup: &Lookup,
     word: u32,
     samples: &S,
     live: u32,
     observer: &mut impl Observer,
-) -> Answer {
+) -> Resolved {
     let payload = word & cell::PAYLOAD_MASK;
-    let offset = payload.wrapping_mul(item::WORDS);
-    let first = sampler.settings.items.wrapping_add(offset);
+    let offset = payload.wrapping_mul(cmd::WORDS);
+    let first = sampler.settings.commands.wrapping_add(offset);
     match word >> cell::TAG_SHIFT {
         cell::SOLID => {
             observer.paint(0);
             let paint = word & cell::PAINT_MASK;
             let color = paint::linear(sampler, paint, samples.uv(live));
-            Answer::of(color, live)
+            Resolved::of(color, live)
         }
         cell::LIST if sampler.settings.has(Features::PAPER) => {
             paper::paper(sampler, lookup, first, samples)
         }
         cell::LIST => walk(sampler, lookup, first, samples, live, observer),
         cell::GROUPS => groups::groups(sampler, lookup, first, samples, live, observer),
-        _ => Answer::of([0.0; 4], live),
+        _ => Resolved::of([0.0; 4], live),
     }
 }
 

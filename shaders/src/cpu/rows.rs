@@ -1,52 +1,84 @@
 //! Twin of `vtex/samples_rows.wgsl`: the samples of a footprint.
 //!
-//! A footprint's parallelogram has eight rows of four samples, and bit 4 k + j of a mask is sample j
-//! of row k. Its first axis is horizontal: of all parallelograms of one covariance it is the one
-//! whose rows an outline crosses at a single x each, so that a segment costs a row's work and not a
-//! sample's.
+//! A footprint's parallelogram has eight rows of four samples, and bit i = 4 k + j of a mask is sample
+//! j of row k. Its first axis is horizontal. The samples go down evenly from one to the next, so those
+//! between two heights are a range of bits; and no two have the same x.
 
-use super::Sampler;
 use super::math::{clamp, to_f32, to_u32};
-use super::plane::{Vec2, point};
+use super::plane::{Vec2, cross, point, sub};
 use super::samples::{Samples, base};
-use crate::layout::item::{DOWN_BIT, EVEN_ODD_BIT, LINE_BIT};
-use crate::layout::rows::{COLUMNS, EVERY, ROWS, SHIFTS};
+use super::{Lookup, Sampler};
+use crate::layout::cmd::{DOWN_BIT, EVEN_ODD_BIT};
+use crate::layout::rows::{COLUMNS, EVERY, ROWS, SAMPLES, SHIFT};
 
 /// A row and a column are no smaller, in cells.
 const LEAST: f32 = 1e-12;
-/// The four bits of the first row.
-const ROW: u32 = (1 << COLUMNS) - 1;
+/// A number for each sample of a row.
+type Row = [f32; COLUMNS as usize];
+/// The samples of a row, and the columns that they lie in: `layout::rows::ORDER`.
+const ROW: Row = [0.0, 1.0, 2.0, 3.0];
+const COLUMN: Row = [2.0, 0.0, 3.0, 1.0];
 /// Samples of odd rows, of rows with bit 1, and of rows with bit 2.
 const ROW_BITS: [u32; 3] = [0xf0f0_f0f0, 0xff00_ff00, 0xffff_0000];
-/// Samples of rows whose shift has the bits 1, 2 and 4, in eighths.
-const SHIFT_BITS: [u32; 3] = [0x0ff0_ff00, 0xf00f_ff00, 0xf0f0_f00f];
-/// Samples of odd columns, and of columns with bit 1.
-const COLUMN_BITS: [u32; 2] = [0xaaaa_aaaa, 0xcccc_cccc];
+/// Samples whose place in their row is odd, whose place has bit 1 and column is odd, and whose column
+/// has bit 1.
+const COLUMN_BITS: [u32; 3] = [0xaaaa_aaaa, 0xcccc_cccc, 0x5555_5555];
 
 /// Rows of samples, in cells of the file or in units of a cell's box.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Rows {
-    /// The first row's height, from one to the next, and the inverse of that.
+    /// The first sample's height, from one to the next, and the inverse of that.
     y: f32,
     dy: f32,
     per_y: f32,
-    /// Left end of the first row, and from one to the next.
+    /// Left end of the first row, and from one row to the next.
     x: f32,
     dx: f32,
-    /// From one sample to the next, and its inverse.
+    /// Width of a column.
     pitch: f32,
-    per_x: f32,
+    /// How far right in their columns the samples of the first row lie, in eighths.
+    shift: u32,
 }
 
 /// No sample lies farther from the centre, in cells, along x and along y. A bound without a root: the
 /// sides of a parallelogram of one covariance add up to no more than sqrt(2) times what theirs do.
-pub(super) fn reach([ax, ay, bx, by]: [f32; 4]) -> Vec2 {
+pub(super) fn extent([ax, ay, bx, by]: [f32; 4]) -> Vec2 {
     [(ax.abs() + bx.abs()) * 0.7072, (ay.abs() + by.abs()) * 0.5]
+}
+
+/// The samples move from pixel to pixel. A line that runs along x or y, or by simple steps like one to
+/// two, meets all pixels in the same places: with the same samples in each it would have too much or too
+/// little of its ink all along.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Phase {
+    /// In parts of the room that each sample has for itself in x and in y.
+    moved: Vec2,
+    /// By how many eighths of a column all rows are shifted, within their columns.
+    shift: u32,
+}
+
+impl Phase {
+    /// `p` is the lookup's place in cells.
+    pub(super) fn new(p: Vec2, [ax, ay, bx, by]: [f32; 4]) -> Self {
+        let [x, y] =
+            [(p[0], ax.abs() + bx.abs()), (p[1], ay.abs() + by.abs())].map(|(p, extent)| {
+                // Divided by the power of two below: exactly, and so alike everywhere. From one pixel to
+                // the next it grows by 1 to 2 at most.
+                let exponent = extent.max(LEAST).to_bits() & 0x7f80_0000;
+                p * f32::from_bits(0x7f00_0000 - exponent)
+            });
+        let fract = |t: f32| t - t.floor();
+        Self {
+            // None where there is no extent.
+            moved: [0.313 * y, 0.322 * x].map(|t| fract(t + 0.5) - 0.5),
+            shift: to_u32(8.0 * fract(0.306 * x + 0.482 * y)),
+        }
+    }
 }
 
 impl Rows {
     /// About `centre`; `axes` are those of the footprint.
-    pub(super) fn new(centre: Vec2, axes: [f32; 4]) -> Self {
+    pub(super) fn new(centre: Vec2, axes: [f32; 4], phase: Phase) -> Self {
         let [ax, ay, bx, by] = axes;
         let xy = ax * ay + bx * by;
         let yy = ay * ay + by * by;
@@ -60,94 +92,101 @@ impl Rows {
             (ax * by - ay * bx).abs() * per_height
         };
         let lean = if level { 0.0 } else { xy * per_height };
-        let dy = height * (1.0 / to_f32(ROWS));
+        let dy = height * (1.0 / to_f32(SAMPLES));
         let dx = lean * (1.0 / to_f32(ROWS));
         let pitch = (width * (1.0 / to_f32(COLUMNS))).max(LEAST);
         Self {
-            y: centre[1] - 3.5 * dy,
+            y: centre[1] + (phase.moved[1] - 15.5) * dy,
             dy,
-            per_y: to_f32(ROWS) * per_height,
-            x: centre[0] - 3.5 * dx - 2.0 * pitch,
+            per_y: to_f32(SAMPLES) * per_height,
+            x: centre[0] - 3.875 * dx + (0.125 * phase.moved[0] - 2.0) * pitch,
             dx,
             pitch,
-            per_x: 1.0 / pitch,
+            shift: phase.shift,
         }
     }
 
     /// The same rows in other units.
     fn scaled(&self, units: f32, offset: Vec2) -> Self {
-        let per_unit = 1.0 / units;
         Self {
             y: self.y * units + offset[1],
             dy: self.dy * units,
-            per_y: self.per_y * per_unit,
+            per_y: self.per_y / units,
             x: self.x * units + offset[0],
             dx: self.dx * units,
             pitch: self.pitch * units,
-            per_x: self.per_x * per_unit,
+            shift: self.shift,
         }
     }
 
-    /// How many rows lie above `y`: half open, so that of two segments that meet on a row's height
-    /// one counts.
+    /// How many samples lie above `y`: half open, so that of two segments that meet at a sample's
+    /// height one counts.
     fn above(&self, y: f32) -> u32 {
-        to_u32(clamp(((y - self.y) * self.per_y).ceil(), 0.0, to_f32(ROWS)))
+        let count = ((y - self.y) * self.per_y).ceil();
+        to_u32(clamp(count, 0.0, to_f32(SAMPLES)))
     }
 
-    /// Where the first sample of a row lies.
+    /// Left end of a row's columns, less a half of an eighth, as its samples have it.
     fn start(&self, row: u32) -> f32 {
-        let eighths = to_f32(SHIFTS >> (4 * row) & 7);
+        let eighths = to_f32((self.shift + SHIFT * row) & 7);
         self.x + to_f32(row) * self.dx + (0.125 * eighths + 0.0625) * self.pitch
     }
 
-    /// The samples of a row from `x` on, as its four bits and beyond. `start` is where its first
-    /// lies.
-    fn from(&self, start: f32, x: f32) -> u32 {
-        let left = clamp(((x - start) * self.per_x).ceil(), 0.0, to_f32(COLUMNS));
-        ROW << to_u32(left)
+    /// How far right of that the samples of a row lie.
+    fn across(&self) -> Row {
+        std::array::from_fn(|j| 0.25 * self.dx * ROW[j] + self.pitch * COLUMN[j])
     }
 
     /// The samples in a box, its left and top sides included.
     pub(super) fn within(&self, low: Vec2, high: Vec2) -> u32 {
+        let [first, end] = [low, high].map(|corner| self.above(corner[1]));
+        let across = self.across();
         let mut mask = 0;
-        for row in self.above(low[1])..self.above(high[1]) {
+        for row in first / COLUMNS..end.div_ceil(COLUMNS) {
             let start = self.start(row);
-            let bits = self.from(start, low[0]) & !self.from(start, high[0]);
-            mask |= (bits & ROW) << (4 * row);
+            let inside = across.map(|x| start + x >= low[0] && start + x < high[0]);
+            mask |= bits(inside) << (4 * row);
         }
-        mask
+        mask & first_of(end) & !first_of(first)
     }
 
     /// Where a sample lies.
     pub(super) fn place(&self, index: u32) -> Vec2 {
-        let row = index >> 2;
-        [
-            self.start(row) + to_f32(index & 3) * self.pitch,
-            self.y + to_f32(row) * self.dy,
-        ]
+        let across = self.across()[(index % COLUMNS) as usize];
+        let x = self.start(index / COLUMNS) + across;
+        [x, self.y + to_f32(index) * self.dy]
     }
 
-    /// The mean of samples, from counts of bits.
+    /// The mean of samples, from that of all, each taken in the middle of the room that its row and
+    /// column give it. From counts of bits.
     fn mean(&self, mask: u32) -> Vec2 {
         let count = |bits: u32| to_f32((mask & bits).count_ones());
-        let whole = count(EVERY).max(1.0);
+        let per_whole = 1.0 / count(EVERY).max(1.0);
         let [one, two, four] = ROW_BITS.map(count);
         let row = one + 2.0 * two + 4.0 * four;
-        let [one, two, four] = SHIFT_BITS.map(count);
-        let eighths = one + 2.0 * two + 4.0 * four;
-        let [one, two] = COLUMN_BITS.map(count);
-        let columns = (one + 2.0 * two + 0.125 * eighths) / whole + 0.0625;
+        let [one, right, two] = COLUMN_BITS.map(count);
+        let place = one + 2.0 * right;
+        let column = right + 2.0 * two;
+        let down = (row + 0.25 * place) * per_whole - 3.875;
+        let across = column * per_whole - 1.5;
         [
-            self.x + row / whole * self.dx + columns * self.pitch,
-            self.y + row / whole * self.dy,
+            down * self.dx + across * self.pitch,
+            down * to_f32(COLUMNS) * self.dy,
         ]
     }
 }
 
-/// The rows above the one with this number.
-const fn until(row: u32) -> u32 {
+/// The samples of a row for which something holds, as four bits.
+fn bits(holds: [bool; COLUMNS as usize]) -> u32 {
+    let [a, b, c, d] = holds.map(u32::from);
+    a | b << 1 | c << 2 | d << 3
+}
+
+/// The first samples, so many.
+const fn first_of(count: u32) -> u32 {
     // In two shifts, as one of 32 is none.
-    !((EVERY << (2 * row)) << (2 * row))
+    let half = count >> 1;
+    !((EVERY << half) << (count - half))
 }
 
 /// The windings of all samples about one outline: a bit of each in a word, modulo 32.
@@ -160,7 +199,7 @@ pub(super) struct CellRows {
     rows: Rows,
     /// From that corner to this cell's.
     cell: Vec2,
-    /// That corner in uv, and the uv of a cell.
+    /// The lookup's place, and the extent of a cell, in uv.
     uv: [Vec2; 2],
     /// In units of this cell's box.
     units: Rows,
@@ -172,11 +211,12 @@ pub(super) struct CellRows {
 }
 
 impl CellRows {
-    /// `home` is the corner of the centre's cell, `cell` from there to this one's, both in cells.
+    /// `cell` is the corner of this cell and `centre` the lookup's place, both from the corner of the
+    /// cell that it lies in, in cells.
     pub(super) fn new(
         sampler: &Sampler<'_>,
+        lookup: &Lookup,
         rows: &Rows,
-        home: Vec2,
         cell: Vec2,
         centre: Vec2,
     ) -> Self {
@@ -186,60 +226,60 @@ impl CellRows {
         Self {
             rows: *rows,
             cell,
-            uv: [
-                [0, 1].map(|i| (home[i] - s.offset[i]) / s.scale[i]),
-                s.scale.map(|scale| 1.0 / scale),
-            ],
+            uv: [lookup.uv, s.scale.map(|scale| 1.0 / scale)],
             units: scaled,
-            left: scaled.x + (7.0 * scaled.dx).min(0.0),
-            right: scaled.x + (7.0 * scaled.dx).max(0.0) + 4.0 * scaled.pitch,
+            left: scaled.x + (7.75 * scaled.dx).min(0.0),
+            right: scaled.x + (7.75 * scaled.dx).max(0.0) + 4.0 * scaled.pitch,
             centre: [centre[0] - cell[0], centre[1] - cell[1]],
         }
     }
 
-    /// The samples right of a segment, in the rows that it crosses.
-    fn right(&self, item: [u32; 4]) -> u32 {
+    /// The samples right of a segment, between the heights of its ends. The test is that of
+    /// `segment::winding`, with all products about the upper end: so an edge along y is met at the
+    /// same x whatever its length.
+    fn right(&self, command: [u32; 4]) -> u32 {
         let rows = &self.units;
-        let [a, b] = [point(item[0]), point(item[2])];
+        let [a, b] = [point(command[0]), point(command[2])];
         let first = rows.above(a[1]);
         let end = rows.above(b[1]);
         // The GPU's text has no branches; these skip the rest for most segments.
         if first >= end || a[0].min(b[0]) > self.right {
             return 0;
         }
+        let heights = first_of(end) & !first_of(first);
         if a[0].max(b[0]) < self.left {
-            return until(end) & !until(first);
+            return heights;
         }
-        // A line's control point is its upper end: half way makes its parameter linear.
-        let c = if item[3] & LINE_BIT != 0 {
-            [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
-        } else {
-            point(item[1])
-        };
-        // x - x0 = t (x1 + t x2), y - y0 = t (2 half_slope + t bend).
-        let [x1, x2] = [2.0 * (c[0] - a[0]), a[0] - 2.0 * c[0] + b[0]];
-        let half_slope = c[1] - a[1];
-        let bend = a[1] - 2.0 * c[1] + b[1];
+        let [to_c, to_b] = [sub(point(command[1]), a), sub(b, a)];
+        let bend = cross(to_c, to_b);
+        let across = rows.across();
         let mut mask = 0;
-        for row in first..end {
-            // The root that does not cancel: both differences are not negative.
-            let down = (rows.y + to_f32(row) * rows.dy - a[1]).max(0.0);
-            let root = (half_slope * half_slope + bend * down).max(0.0).sqrt();
-            let t = down / (half_slope + root).max(1e-20);
-            let x = a[0] + t * (x1 + t * x2);
-            mask |= (rows.from(rows.start(row), x) & ROW) << (4 * row);
+        for row in first / COLUMNS..end.div_ceil(COLUMNS) {
+            // From the upper end to the first sample.
+            let [x, y] = [
+                rows.start(row) - a[0],
+                rows.y - a[1] + to_f32(4 * row) * rows.dy,
+            ];
+            let right = std::array::from_fn(|j| {
+                let p = [x + across[j], y + rows.dy * ROW[j]];
+                let [chord, before] = [cross(p, to_b), cross(p, to_c)];
+                let inner = -4.0 * before * (bend - chord + before);
+                let between = chord * bend > 0.0 && chord * chord < inner;
+                (chord >= 0.0) != between
+            });
+            mask |= bits(right) << (4 * row);
         }
-        mask
+        mask & heights
     }
 }
 
 impl Samples for CellRows {
     type Winding = Winding;
 
-    fn wind(&self, winding: &mut Winding, item: [u32; 4]) {
-        let mut carry = self.right(item);
+    fn wind(&self, winding: &mut Winding, command: [u32; 4]) {
+        let mut carry = self.right(command);
         // All ones to count down.
-        let down = if item[3] & DOWN_BIT != 0 { 0 } else { EVERY };
+        let down = if command[3] & DOWN_BIT != 0 { 0 } else { EVERY };
         for bits in winding {
             let next = (*bits ^ down) & carry;
             *bits ^= carry;
@@ -247,14 +287,14 @@ impl Samples for CellRows {
         }
     }
 
-    fn filled(&self, winding: Winding, tail: u32) -> u32 {
+    fn filled(&self, winding: Winding, tag: u32) -> u32 {
         // What the segments' windings are where all of it is none.
-        let none = base(tail).wrapping_neg().cast_unsigned();
+        let none = base(tag).wrapping_neg().cast_unsigned();
         let mut some = 0;
         for (bit, bits) in winding.iter().enumerate() {
             some |= bits ^ (none >> bit & 1).wrapping_neg();
         }
-        if tail & EVEN_ODD_BIT != 0 {
+        if tag & EVEN_ODD_BIT != 0 {
             winding[0] ^ (none & 1).wrapping_neg()
         } else {
             some
@@ -263,8 +303,8 @@ impl Samples for CellRows {
 
     fn uv(&self, mask: u32) -> Vec2 {
         let mean = self.rows.mean(mask);
-        let [home, per_cell] = self.uv;
-        [0, 1].map(|i| home[i] + mean[i] * per_cell[i])
+        let [uv, per_cell] = self.uv;
+        [0, 1].map(|i| uv[i] + mean[i] * per_cell[i])
     }
 
     fn q(&self, index: u32) -> Vec2 {

@@ -2,7 +2,7 @@
 
 use super::plane::Vec2;
 use super::segment;
-use crate::layout::item::{BASE_LEFT, BASE_RIGHT, EVEN_ODD_BIT};
+use crate::layout::cmd::{BASE_LEFT, BASE_RIGHT, EVEN_ODD_BIT};
 
 /// The samples of a lookup as seen from one cell of the file. A walk speaks of them as bits of a
 /// mask.
@@ -10,9 +10,9 @@ pub(super) trait Samples {
     /// The windings of all samples about one outline; the default is zero.
     type Winding: Copy + Default;
     /// Adds what a segment does to the windings.
-    fn wind(&self, winding: &mut Self::Winding, item: [u32; 4]);
-    /// The samples that an entry with this last word covers.
-    fn filled(&self, winding: Self::Winding, tail: u32) -> u32;
+    fn wind(&self, winding: &mut Self::Winding, command: [u32; 4]);
+    /// The samples that an entry with this tag covers.
+    fn filled(&self, winding: Self::Winding, tag: u32) -> u32;
     /// The mean of samples, in uv.
     fn uv(&self, mask: u32) -> Vec2;
     /// The place of one sample inside the file's cell.
@@ -35,13 +35,13 @@ pub(super) struct Point {
 impl Samples for Point {
     type Winding = i32;
 
-    fn wind(&self, winding: &mut i32, item: [u32; 4]) {
-        *winding += segment::winding(item, self.p);
+    fn wind(&self, winding: &mut i32, command: [u32; 4]) {
+        *winding += segment::winding(command, self.p);
     }
 
-    fn filled(&self, winding: i32, tail: u32) -> u32 {
-        let total = winding + base(tail);
-        u32::from(if tail & EVEN_ODD_BIT != 0 {
+    fn filled(&self, winding: i32, tag: u32) -> u32 {
+        let total = winding + base(tag);
+        u32::from(if tag & EVEN_ODD_BIT != 0 {
             total & 1 != 0
         } else {
             total != 0
@@ -61,7 +61,7 @@ impl Samples for Point {
     }
 }
 
-/// The winding that an entry's last word says its segments begin with.
-pub(super) const fn base(tail: u32) -> i32 {
-    (tail << BASE_LEFT).cast_signed() >> BASE_RIGHT
+/// The winding that an entry's tag says its segments begin with.
+pub(super) const fn base(tag: u32) -> i32 {
+    (tag << BASE_LEFT).cast_signed() >> BASE_RIGHT
 }

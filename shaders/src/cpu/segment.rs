@@ -2,17 +2,17 @@
 //! box.
 
 use super::plane::{Vec2, cross, point, sub};
-use crate::layout::item::DOWN_BIT;
+use crate::layout::cmd::DOWN_BIT;
 
 /// By how much the winding changes where the ray that runs left from `p` meets the segment.
-pub(super) fn winding(item: [u32; 4], p: Vec2) -> i32 {
-    let a = sub(point(item[0]), p);
-    let b = sub(point(item[2]), p);
+pub(super) fn winding(command: [u32; 4], p: Vec2) -> i32 {
+    let a = sub(point(command[0]), p);
+    let b = sub(point(command[2]), p);
     // The GPU's text has no branch; this one skips the rest for most segments.
     if !(a[1] <= 0.0 && b[1] > 0.0) {
         return 0;
     }
-    let c = sub(point(item[1]), p);
+    let c = sub(point(command[1]), p);
     let chord = cross(a, b);
     let bend = cross(sub(c, a), sub(b, a));
     let inner = 4.0 * cross(c, b) * cross(a, c);
@@ -20,13 +20,13 @@ pub(super) fn winding(item: [u32; 4], p: Vec2) -> i32 {
     if (chord <= 0.0) == between {
         return 0;
     }
-    if item[3] & DOWN_BIT != 0 { 1 } else { -1 }
+    if command[3] & DOWN_BIT != 0 { 1 } else { -1 }
 }
 
 /// Whether the winding is the same all over the box from `low` to `high`, as far as this segment
 /// alone tells.
-pub(super) fn is_constant(item: [u32; 4], low: Vec2, high: Vec2) -> bool {
-    let [a, b] = [point(item[0]), point(item[2])];
+pub(super) fn is_constant(command: [u32; 4], low: Vec2, high: Vec2) -> bool {
+    let [a, b] = [point(command[0]), point(command[2])];
     if high[1] < a[1] || low[1] >= b[1] || high[0] < a[0].min(b[0]) {
         return true;
     }
@@ -39,6 +39,6 @@ pub(super) fn is_constant(item: [u32; 4], low: Vec2, high: Vec2) -> bool {
     } else {
         [low, high]
     };
-    let [one, other] = corners.map(|corner| winding(item, corner));
+    let [one, other] = corners.map(|corner| winding(command, corner));
     one == other
 }

@@ -3,7 +3,7 @@
 use vtex_format::Features;
 
 use super::words::word_of;
-use crate::layout::{header, item, paint};
+use crate::layout::{cmd, header, paint};
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Settings {
@@ -25,10 +25,10 @@ pub(super) struct Settings {
     /// Whether eq. 2's outline is on.
     pub(super) outline: bool,
     pub(super) outline_paint: u32,
-    /// What `vtex_outline_head` gives; without outline one that hides nothing of `head`.
-    pub(super) outline_head: u32,
+    /// What `vtex_outline_tag` gives; without outline one that hides nothing.
+    pub(super) outline_tag: u32,
     pub(super) cells: u32,
-    pub(super) items: u32,
+    pub(super) commands: u32,
     pub(super) paints: u32,
     pub(super) tiles: u32,
     pub(super) images: u32,
@@ -59,9 +59,9 @@ impl Settings {
             outline_width: float(header::OUTLINE_WIDTH),
             outline: false,
             outline_paint: word(header::OUTLINE_PAINT),
-            outline_head: item::OPAQUE_BIT,
+            outline_tag: cmd::OPAQUE_BIT,
             cells: word(header::CELLS),
-            items: word(header::ITEMS),
+            commands: word(header::COMMANDS),
             paints: word(header::PAINTS),
             tiles: word(header::TILES),
             images: word(header::IMAGES),
@@ -75,12 +75,12 @@ impl Settings {
                 .wrapping_add(settings.paints);
             let alpha = word(first.wrapping_add(1)) >> 16;
             let opaque = if alpha == paint::UNIT {
-                item::OPAQUE_BIT
+                cmd::OPAQUE_BIT
             } else {
                 0
             };
             settings.outline = true;
-            settings.outline_head = index | opaque;
+            settings.outline_tag = index | opaque;
         }
         settings
     }

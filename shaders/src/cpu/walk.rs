@@ -1,30 +1,31 @@
-//! Twin of `vtex/walk.wgsl`, `vtex/hit_*.wgsl` and `vtex/answer.wgsl`: the walk over a cell's list, front to back.
+//! Twin of `vtex/walk.wgsl`, `vtex/composite_*.wgsl` and `vtex/resolved.wgsl`: the walk over a
+//! cell's list, front to back.
 //!
 //! All samples of one walk have met the same entries so far, so one colour stands for them. Those
-//! that an opaque entry covers are done. At any other entry or test the samples part: the walk goes
-//! on with those that do as the first of them does, and another walk begins with the rest.
+//! that an opaque entry covers are done. At any other entry or branch the samples part: the walk
+//! goes on with those that do as the first of them does, and another walk begins with the rest.
 
 use vtex_format::Features;
 
+use super::brush::{BrushColor, brush};
 use super::color;
 use super::cost::Observer;
-use super::edge::{Edge, jumps, ring, target};
+use super::edge::{Edge, ring, taken, target};
 use super::math::to_f32;
 use super::samples::Samples;
-use super::source::{Shown, source};
 use super::{Lookup, Sampler, paint};
-use crate::layout::item;
+use crate::layout::cmd;
 
 /// What samples see.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Answer {
+pub(super) struct Resolved {
     /// The sum of their colours, in linear light, premultiplied.
     pub(super) sum: [f32; 4],
     /// The samples.
     pub(super) done: u32,
 }
 
-impl Answer {
+impl Resolved {
     /// Samples that all see `color`.
     pub(super) fn of(color: [f32; 4], samples: u32) -> Self {
         let count = to_f32(samples.count_ones());
@@ -35,7 +36,7 @@ impl Answer {
     }
 }
 
-/// What a list of draws and tests shows to the samples of `live`, or to some of them.
+/// What a list of draws and branches shows to the samples of `live`, or to some of them.
 pub(super) fn walk<S: Samples>(
     sampler: &Sampler<'_>,
     lookup: &Lookup,
@@ -43,45 +44,45 @@ pub(super) fn walk<S: Samples>(
     samples: &S,
     live: u32,
     observer: &mut impl Observer,
-) -> Answer {
+) -> Resolved {
     // The texels of an image may have any alpha.
     let translucent = Features::TRANSLUCENT | Features::IMAGES;
-    let mut hit = Hit::new(live, sampler.settings.has(translucent));
+    let mut composite = Composite::new(live, sampler.settings.has(translucent));
     let mut edge = Edge::<S>::new();
     let mut at = first;
-    for _ in 0..item::LIMIT {
-        if hit.live == 0 || sampler.is_past(at) {
+    for _ in 0..cmd::LIMIT {
+        if composite.live == 0 || sampler.is_past(at) {
             break;
         }
         let words: [u32; 4] = sampler.words(at);
-        at = at.wrapping_add(item::WORDS);
+        at = at.wrapping_add(cmd::WORDS);
         edge.wind(samples, words);
-        observer.item(words[3]);
-        if words[3] & item::END_BIT == 0 {
+        observer.command(words[3]);
+        if words[3] & cmd::END_BIT == 0 {
             continue;
         }
-        let tail = words[3];
-        let covered = edge.covered(sampler, samples, words, hit.live);
-        if tail & item::CONTROL_BIT != 0 {
-            if hit.part(jumps(tail, covered)) {
-                at = target(tail, at);
+        let tag = words[3];
+        let covered = edge.covered(sampler, samples, words, composite.live);
+        if tag & cmd::CONTROL_BIT != 0 {
+            if composite.part(taken(tag, covered)) {
+                at = target(tag, at);
                 continue;
             }
         } else {
-            hit.draw(sampler, lookup, samples, covered, tail, observer);
-            let ring = ring(sampler, samples, words, covered, hit.live);
-            let head = sampler.settings.outline_head;
-            hit.draw(sampler, lookup, samples, ring, head, observer);
+            composite.draw(sampler, lookup, samples, covered, tag, observer);
+            let ring = ring(sampler, samples, words, covered, composite.live);
+            let tag = sampler.settings.outline_tag;
+            composite.draw(sampler, lookup, samples, ring, tag, observer);
         }
-        if tail & item::LAST_BIT != 0 {
+        if tag & cmd::LAST_BIT != 0 {
             break;
         }
     }
-    hit.finish()
+    composite.resolve()
 }
 
 /// What the samples of a walk have met.
-struct Hit {
+struct Composite {
     /// The samples that the walk goes on with.
     live: u32,
     /// Whether translucent paints may be met: of opaque ones all samples share what they share in
@@ -90,7 +91,7 @@ struct Hit {
     /// Whether an entry that hides what lies behind it has left some samples out.
     split: bool,
     /// Those that are done, and their colours.
-    answer: Answer,
+    resolved: Resolved,
     /// Entries met, and the last of them where it is the only one.
     count: u32,
     only: [f32; 4],
@@ -98,13 +99,13 @@ struct Hit {
     color: [f32; 4],
 }
 
-impl Hit {
+impl Composite {
     const fn new(live: u32, restarts: bool) -> Self {
         Self {
             live,
             restarts,
             split: false,
-            answer: Answer {
+            resolved: Resolved {
                 sum: [0.0; 4],
                 done: 0,
             },
@@ -130,50 +131,50 @@ impl Hit {
         lookup: &Lookup,
         samples: &S,
         covered: u32,
-        head: u32,
+        tag: u32,
         observer: &mut impl Observer,
     ) {
-        let hit = covered & self.live;
-        if hit == 0 {
+        let met = covered & self.live;
+        if met == 0 {
             return;
         }
-        observer.paint(head);
-        let opaque = head & item::OPAQUE_BIT != 0;
-        let uv = samples.uv(hit);
+        observer.paint(tag);
+        let opaque = tag & cmd::OPAQUE_BIT != 0;
+        let uv = samples.uv(met);
         // An opaque paint alone needs no transfer function.
-        if opaque && self.count == 0 && head & item::KIND_MASK != item::IMAGE {
-            let color = paint::linear(sampler, head & item::INDEX_MASK, uv);
-            self.hide(color, hit);
+        if opaque && self.count == 0 && tag & cmd::KIND_MASK != cmd::IMAGE {
+            let color = paint::linear(sampler, tag & cmd::INDEX_MASK, uv);
+            self.hide(color, met);
             return;
         }
-        let shown = source(sampler, head, uv, lookup);
+        let brush = brush(sampler, tag, uv, lookup);
         // An opaque image shows nothing, and hides nothing, outside its rectangle.
-        if opaque && shown.encoded[3] > 0.0 {
+        if opaque && brush.encoded[3] > 0.0 {
             let before = (self.count, self.only, self.color);
-            self.take(&shown);
+            self.take(&brush);
             let color = self.value();
-            self.hide(color, hit);
+            self.hide(color, met);
             (self.count, self.only, self.color) = before;
             return;
         }
         let live = self.live;
-        if self.part(hit) {
-            self.take(&shown);
+        if self.part(met) {
+            self.take(&brush);
             if self.color[3] >= 1.0 {
                 self.live = live;
-                self.hide(self.value(), hit);
+                self.hide(self.value(), met);
                 self.live = 0;
             }
         }
     }
 
     /// Front to back.
-    fn take(&mut self, shown: &Shown) {
-        if shown.encoded[3] > 0.0 {
+    fn take(&mut self, brush: &BrushColor) {
+        if brush.encoded[3] > 0.0 {
             self.count += 1;
-            self.only = shown.linear;
+            self.only = brush.linear;
             let through = 1.0 - self.color[3];
-            self.color = std::array::from_fn(|i| self.color[i] + through * shown.encoded[i]);
+            self.color = std::array::from_fn(|i| self.color[i] + through * brush.encoded[i]);
         }
     }
 
@@ -202,16 +203,16 @@ impl Hit {
 
     /// Samples are done.
     fn end(&mut self, color: [f32; 4], those: u32) {
-        let answer = Answer::of(color, those);
-        self.answer.sum = std::array::from_fn(|i| self.answer.sum[i] + answer.sum[i]);
-        self.answer.done |= those;
+        let resolved = Resolved::of(color, those);
+        self.resolved.sum = std::array::from_fn(|i| self.resolved.sum[i] + resolved.sum[i]);
+        self.resolved.done |= those;
         self.live &= !those;
     }
 
-    fn finish(mut self) -> Answer {
+    fn resolve(mut self) -> Resolved {
         if self.live != 0 {
             self.end(self.value(), self.live);
         }
-        self.answer
+        self.resolved
     }
 }

@@ -93,7 +93,7 @@ fn the_footprint_goes_through_the_matrix() {
             ..PackOptions::default()
         };
         let words = pack(&file, &options);
-        Sampler::new(&words).sample([u, 0.5], [width, 0.0, 0.0, width])[3]
+        Sampler::new(&words).sample([u, 0.5 / scale], [width, 0.0, 0.0, width])[3]
     };
     let (plain, halved) = (alpha(1.0, 0.55, 0.4), alpha(0.5, 1.1, 0.8));
     assert!((plain - halved).abs() < 1e-6, "{plain} and {halved}");

@@ -18,7 +18,7 @@ const MARGIN: f32 = 0.25;
 pub(crate) enum Cover {
     Full,
     /// A tile whose distance is the same everywhere, in texels.
-    Flat(f32),
+    Uniform(f32),
     /// A straight edge across the cell at `x` texels from its left; inside is to the right.
     Edge(f32),
 }
@@ -78,7 +78,7 @@ pub(crate) fn set_list(file: &mut VtexFile, cell: usize, stack: &[(Cover, [f32; 
             index: paint(file, color),
             data: match cover {
                 Cover::Full => 0,
-                Cover::Flat(distance) => push_tile(file, |_, _| distance),
+                Cover::Uniform(distance) => push_tile(file, |_, _| distance),
                 Cover::Edge(edge) => push_tile(file, |x, _| x - edge),
             },
         })
@@ -116,7 +116,7 @@ pub(crate) fn push_tile(file: &mut VtexFile, distance: impl Fn(f32, f32) -> f32)
     index
 }
 
-/// The distance a tile of `Cover::Flat(distance)` really holds.
+/// The distance a tile of `Cover::Uniform(distance)` really holds.
 pub(crate) fn stored(distance: f32) -> f64 {
     let m = (distance / RANGE + 0.5).clamp(0.0, 1.0);
     (f64::from((m * 255.0).round()) / 255.0 - 0.5) * f64::from(RANGE)

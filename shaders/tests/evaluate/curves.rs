@@ -40,7 +40,7 @@ fn alpha(file: &VtexFile, filter: FilterMode, width: f32) -> impl Fn(f32, f32) -
     move |u, v| Sampler::new(&words).sample([u, v], [width / columns, 0.0, 0.0, width])[3]
 }
 
-/// Points of a raster that hits no edge of the shapes here.
+/// Points of a raster that lie on no edge of the shapes here.
 fn raster() -> impl Iterator<Item = (f32, f32)> {
     (0..97).flat_map(|i| (0..97).map(move |j| ((i as f32 + 0.37) / 97.0, (j as f32 + 0.61) / 97.0)))
 }
@@ -77,9 +77,10 @@ fn a_footprint_is_the_box_average_of_an_edge() {
             let expected = ((x - 0.25) / width + 0.5).clamp(0.0, 1.0);
             // The lattice holds the edge to half a unit.
             let rounding = 2e-5 / width;
-            for (got, spacing) in [(got(x, 0.5), 1.0 / 32.0), (got(0.5, x), 1.0 / 8.0)] {
+            // The edge may lie anywhere between two of 32 samples, which move.
+            for got in [got(x, 0.5), got(0.5, x)] {
                 assert!(
-                    (got - expected).abs() <= 0.5 * spacing + rounding,
+                    (got - expected).abs() <= 1.0 / 32.0 + rounding,
                     "{width} at {x}: {got}, expected {expected}"
                 );
             }
@@ -136,8 +137,8 @@ fn a_circle_of_quadratics() {
         count += 1.0;
     }
     let rms = (squares / count).sqrt();
-    // Three of 32 samples.
-    assert!(worst < 3.0 / 32.0 && rms < 0.02, "{worst} {rms}");
+    // Four of 32 samples.
+    assert!(worst < 4.0 / 32.0 && rms < 0.02, "{worst} {rms}");
 }
 
 /// Five corners, each joined to the next but one.

@@ -33,13 +33,13 @@ fn premultiplied(color: [f32; 4]) -> Rgba {
 
 /// Front to back on sRGB-encoded values. Shape and ring exclude each other, so that both lie over
 /// what is behind.
-pub(crate) fn shown(terms: &[Term]) -> Rgba {
+pub(crate) fn composited(terms: &[Term]) -> Rgba {
     let mut seen = [0.0; 4];
     for term in terms {
         let through = 1.0 - seen[3];
         for (coverage, color) in term.coverage.into_iter().zip(term.color) {
-            let shown = premultiplied(color);
-            seen = std::array::from_fn(|i| seen[i] + through * coverage * shown[i]);
+            let front = premultiplied(color);
+            seen = std::array::from_fn(|i| seen[i] + through * coverage * front[i]);
         }
     }
     straight(decode, seen)

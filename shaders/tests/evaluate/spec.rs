@@ -94,20 +94,20 @@ fn code_of_absent_features_is_not_in_the_text() {
         let rows = has(Features::FOOTPRINT);
         let outline = has(Features::OUTLINE);
         let paper = has(Features::PAPER);
-        // Opaque solid paints alone are stored as they are shown.
-        let sources = translucent || groups || paper;
+        // Opaque solid paints alone are stored as they are composited.
+        let brushes = translucent || groups || paper;
         for (symbol, wanted) in [
             ("fn vtex_walk(", lists),
             ("fn vtex_mapping_linear(", has(Features::MAPPING)),
-            ("fn vtex_hit_draw(", lists),
-            ("struct VtexSource {", sources),
+            ("fn vtex_composite_draw(", lists),
+            ("struct VtexBrushColor {", brushes),
             ("return vtex_samples_wind(", curves),
             ("vtex_msdf_", msdf),
             ("vtex_rows_", rows),
             ("vtex_image_entry", images),
             ("vtex_outline_", outline || paper),
             ("vtex_paper", paper),
-            ("vtex_color_", sources || gradients),
+            ("vtex_color_", brushes || gradients),
             ("vtex_gradient", gradients),
             ("vtex_groups", groups),
             ("vtex_blend", groups),

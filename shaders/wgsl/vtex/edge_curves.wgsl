@@ -3,15 +3,15 @@
 //!use vtex/samples
 // The samples that an entry covers, where edges are curves.
 
-// An item of the entry.
-fn vtex_edge_wind(samples: VtexSamples, winding: VtexWinding, item: vec4u) -> VtexWinding {
-    return vtex_samples_wind(samples, winding, item);
+// A command of the entry.
+fn vtex_edge_wind(samples: VtexSamples, winding: VtexWinding, command: vec4u) -> VtexWinding {
+    return vtex_samples_wind(samples, winding, command);
 }
 
-// `item` is the entry's last. Of samples that are not in `live` nothing is said.
+// `command` is the entry's last. Of samples that are not in `live` nothing is said.
 fn vtex_edge_covered(
-    vt: VtexTexture, samples: VtexSamples, item: vec4u, winding: VtexWinding, live: u32,
+    vt: VtexTexture, samples: VtexSamples, command: vec4u, winding: VtexWinding, live: u32,
 ) -> u32 {
-    let curves = (item.w & VTEX_ITEM_KIND_MASK) == VTEX_ITEM_CURVES;
-    return select(VTEX_SAMPLES_EVERY, vtex_samples_filled(winding, item.w), curves);
+    let curves = (command.w & VTEX_CMD_KIND_MASK) == VTEX_CMD_CURVES;
+    return select(VTEX_SAMPLES_EVERY, vtex_samples_filled(winding, command.w), curves);
 }

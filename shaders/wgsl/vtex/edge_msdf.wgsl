@@ -4,16 +4,16 @@
 //!use vtex/msdf_edge
 // The samples that an entry covers, where edges are MSDFs.
 
-fn vtex_edge_wind(samples: VtexSamples, winding: VtexWinding, item: vec4u) -> VtexWinding {
+fn vtex_edge_wind(samples: VtexSamples, winding: VtexWinding, command: vec4u) -> VtexWinding {
     return winding;
 }
 
-// `item` is the entry's last. Of samples that are not in `live` nothing is said.
+// `command` is the entry's last. Of samples that are not in `live` nothing is said.
 fn vtex_edge_covered(
-    vt: VtexTexture, samples: VtexSamples, item: vec4u, winding: VtexWinding, live: u32,
+    vt: VtexTexture, samples: VtexSamples, command: vec4u, winding: VtexWinding, live: u32,
 ) -> u32 {
-    if (item.w & VTEX_ITEM_KIND_MASK) == VTEX_ITEM_MSDF {
-        return vtex_msdf_covered(vt, samples, item.x, 0.0, live);
+    if (command.w & VTEX_CMD_KIND_MASK) == VTEX_CMD_MSDF {
+        return vtex_msdf_covered(vt, samples, command.x, 0.0, live);
     }
     return VTEX_SAMPLES_EVERY;
 }

@@ -4,10 +4,10 @@
 //!use vtex/settings
 //!use vtex/lookup
 //!use vtex/samples
-//!use vtex/answer
+//!use vtex/resolved
 //!use vtex/edge
 //!use vtex/msdf
-//!use vtex/source
+//!use vtex/brush
 //!use vtex/outline
 // The filter of [SFG22], as a baseline.
 
@@ -22,32 +22,32 @@ fn vtex_paper_ramp(vt: VtexTexture, distance: f32) -> f32 {
 // alpha, and may have a ring (eq. 2); other edges are hard.
 fn vtex_paper(
     vt: VtexTexture, lookup: VtexLookup, word: u32, samples: VtexSamples, live: u32,
-) -> VtexAnswer {
-    let first = vt.items + (word & VTEX_CELL_PAYLOAD_MASK) * VTEX_ITEM_WORDS;
+) -> VtexResolved {
+    let first = vt.commands + (word & VTEX_CELL_PAYLOAD_MASK) * VTEX_CMD_WORDS;
     let width = vtex_word_float(vt, VTEX_HEADER_OUTLINE_WIDTH);
     var color = vec4f(0.0);
     var winding = VtexWinding();
-    for (var i = 0u; i < VTEX_ITEM_LIMIT; i += 1u) {
-        let item = vtex_word4(vt, first + i * VTEX_ITEM_WORDS);
-        winding = vtex_edge_wind(samples, winding, item);
-        if (item.w & VTEX_ITEM_END_BIT) != 0u {
+    for (var i = 0u; i < VTEX_CMD_LIMIT; i += 1u) {
+        let command = vtex_word4(vt, first + i * VTEX_CMD_WORDS);
+        winding = vtex_edge_wind(samples, winding, command);
+        if (command.w & VTEX_CMD_END_BIT) != 0u {
             var inner = 0.0;
             var outer = 0.0;
-            if (item.w & VTEX_ITEM_KIND_MASK) == VTEX_ITEM_MSDF {
-                let distance = vtex_msdf_distance(vt, item.x, vtex_samples_centre(samples));
+            if (command.w & VTEX_CMD_KIND_MASK) == VTEX_CMD_MSDF {
+                let distance = vtex_msdf_distance(vt, command.x, vtex_samples_centre(samples));
                 inner = vtex_paper_ramp(vt, distance);
                 outer = select(0.0, vtex_paper_ramp(vt, distance + width), width > 0.0);
             } else {
-                let covered = vtex_edge_covered(vt, samples, item, winding, 1u);
+                let covered = vtex_edge_covered(vt, samples, command, winding, 1u);
                 inner = select(0.0, 1.0, (covered & 1u) != 0u);
             }
             winding = VtexWinding();
             var over = 0u;
-            if (item.w & VTEX_ITEM_CONTROL_BIT) != 0u {
-                let inside = (item.w & VTEX_ITEM_OPAQUE_BIT) != 0u;
+            if (command.w & VTEX_CMD_CONTROL_BIT) != 0u {
+                let inside = (command.w & VTEX_CMD_OPAQUE_BIT) != 0u;
                 if (inner > 0.0) == inside {
-                    over = item.w & VTEX_ITEM_INDEX_MASK;
-                    // A jump over nothing leaves the list.
+                    over = command.w & VTEX_CMD_INDEX_MASK;
+                    // A branch over nothing leaves the list.
                     if over == 0u {
                         break;
                     }
@@ -56,19 +56,19 @@ fn vtex_paper(
                 // Shape and ring exclude each other: both lie over what is behind.
                 var entry = vec4f(0.0);
                 if inner > 0.0 {
-                    entry += inner * vtex_source(vt, lookup, item.w, lookup.uv).encoded;
+                    entry += inner * vtex_brush(vt, lookup, command.w, lookup.uv).encoded;
                 }
                 if outer > inner {
-                    let head = vtex_outline_head(vt);
-                    entry += (outer - inner) * vtex_source(vt, lookup, head, lookup.uv).encoded;
+                    let tag = vtex_outline_tag(vt);
+                    entry += (outer - inner) * vtex_brush(vt, lookup, tag, lookup.uv).encoded;
                 }
                 color += (1.0 - color.a) * entry;
             }
             i += over;
-            if over == 0u && (color.a >= 1.0 || (item.w & VTEX_ITEM_LAST_BIT) != 0u) {
+            if over == 0u && (color.a >= 1.0 || (command.w & VTEX_CMD_LAST_BIT) != 0u) {
                 break;
             }
         }
     }
-    return vtex_answer(vtex_color_decode_premultiplied(color), live);
+    return vtex_resolved(vtex_color_decode_premultiplied(color), live);
 }

@@ -4,7 +4,7 @@
 //!use vtex/lookup
 //!use vtex/cell
 //!use vtex/samples
-//!use vtex/answer
+//!use vtex/resolved
 //!use vtex/lists
 // The mean of what the cells show to a footprint's samples. Each pass takes the samples in one fine
 // cell, or in a square of such as show the same, or those beyond one side of the canvas, which do not
@@ -22,8 +22,8 @@ fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
     let p = lookup.uv * vt.cell_from_uv.xy + vt.cell_from_uv.zw;
     let home = floor(p);
     let centre = p - home;
-    let reach = vtex_rows_reach(axes);
-    var rows = vtex_rows(centre, axes);
+    let extent = vtex_rows_extent(axes);
+    var rows = vtex_rows(centre, axes, vtex_rows_phase(p, axes));
     var canvas_low = vt.cell_from_uv.zw - home;
     var canvas_high = vt.cell_from_uv.xy + canvas_low;
     var sum = vec4f(0.0);
@@ -39,14 +39,14 @@ fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
         let cell = floor(fine * vt.fine.w) - home;
         // A list serves what is near, as far as its cell of the file goes.
         let listed = tag >= VTEX_CELL_LIST;
-        let room = f32(bitcast<i32>((word >> VTEX_CELL_ROOM_SHIFT) & VTEX_CELL_ROOM_MASK));
-        let around = select(room, VTEX_PICTURE_OVERLAP, listed) * vt.fine.w;
+        let clearance = f32(bitcast<i32>((word >> VTEX_CELL_CLEARANCE_SHIFT) & VTEX_CELL_CLEARANCE_MASK));
+        let around = select(clearance, VTEX_PICTURE_OVERLAP, listed) * vt.fine.w;
         let bounds_low = select(canvas_low, max(canvas_low, cell), vec2<bool>(listed));
         let bounds_high = select(canvas_high, min(canvas_high, cell + 1.0), vec2<bool>(listed));
         var low = max(corner - around, bounds_low);
         var high = min(corner + around + vt.fine.w, bounds_high);
         // All samples are in one square: no need to look for them.
-        let whole = all(low <= centre - reach) && all(centre + reach < high);
+        let whole = all(low <= centre - extent) && all(centre + extent < high);
         let before = place < canvas_low;
         let behind = place >= canvas_high;
         let beyond = any(before) || any(behind);
@@ -56,18 +56,18 @@ fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
         // Rounding must not leave out the one that the pass is for.
         var mask = (vtex_rows_within(rows, low, high) | own) & live;
         mask = select(mask, live, whole);
-        let samples = vtex_samples_of_rows(vt, rows, home, cell, centre);
-        let answer = vtex_lists(vt, lookup, select(word, VTEX_CELL_EMPTY, beyond), samples, mask);
-        let done = select(answer.done, mask, beyond);
-        sum += answer.sum;
-        count += select(vtex_answer_count(done), 0.0, beyond);
+        let samples = vtex_samples_of_rows(vt, lookup, rows, cell, centre);
+        let resolved = vtex_lists(vt, lookup, select(word, VTEX_CELL_EMPTY, beyond), samples, mask);
+        let done = select(resolved.done, mask, beyond);
+        sum += resolved.sum;
+        count += select(vtex_resolved_count(done), 0.0, beyond);
         live &= ~done;
         if live == 0u {
             if count > 0.0 {
                 break;
             }
             // None is on the canvas: the lookup's own place stands for all.
-            rows = vtex_rows(centre, vec4f(0.0));
+            rows = vtex_rows(centre, vec4f(0.0), VtexRowsPhase());
             canvas_low = vec2f(-VTEX_PICTURE_FAR);
             canvas_high = vec2f(VTEX_PICTURE_FAR);
             live = VTEX_SAMPLES_EVERY;

@@ -1,11 +1,12 @@
 //!use vtex/texture
 //!use vtex/lookup
 //!use vtex/samples
-//!use vtex/hit
+//!use vtex/composite
 // No distance outline.
 
 fn vtex_ring(
-    vt: VtexTexture, lookup: VtexLookup, hit: VtexHit, samples: VtexSamples, covered: u32, item: vec4u,
-) -> VtexHit {
-    return hit;
+    vt: VtexTexture, lookup: VtexLookup, composite: VtexComposite, samples: VtexSamples,
+    covered: u32, command: vec4u,
+) -> VtexComposite {
+    return composite;
 }

@@ -24,15 +24,15 @@ fn vtex_samples_in_cell(vt: VtexTexture, lookup: VtexLookup, q: vec2f) -> VtexSa
 }
 
 // Adds what a segment does to the windings.
-fn vtex_samples_wind(samples: VtexSamples, winding: VtexWinding, item: vec4u) -> VtexWinding {
-    return winding + vtex_segment_winding(item, samples.p);
+fn vtex_samples_wind(samples: VtexSamples, winding: VtexWinding, command: vec4u) -> VtexWinding {
+    return winding + vtex_segment_winding(command, samples.p);
 }
 
-// The samples that an entry with this last word covers.
-fn vtex_samples_filled(winding: VtexWinding, tail: u32) -> u32 {
-    let base = bitcast<i32>(tail << VTEX_ITEM_BASE_LEFT) >> VTEX_ITEM_BASE_RIGHT;
+// The samples that an entry with this tag covers.
+fn vtex_samples_filled(winding: VtexWinding, tag: u32) -> u32 {
+    let base = bitcast<i32>(tag << VTEX_CMD_BASE_LEFT) >> VTEX_CMD_BASE_RIGHT;
     let total = winding + base;
-    let filled = select(total != 0, (total & 1) != 0, (tail & VTEX_ITEM_EVEN_ODD_BIT) != 0u);
+    let filled = select(total != 0, (total & 1) != 0, (tag & VTEX_CMD_EVEN_ODD_BIT) != 0u);
     return select(0u, 1u, filled);
 }
 

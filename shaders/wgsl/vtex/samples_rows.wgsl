@@ -1,23 +1,24 @@
 //!use core/layout
 //!use vtex/texture
+//!use vtex/lookup
 //!use vtex/segment
 // The samples of a footprint, as seen from one cell of the file; a walk speaks of samples as bits of
-// a mask. A footprint's parallelogram has eight rows of four samples, and bit 4 k + j of a mask is
-// sample j of row k. Its first axis is horizontal: of all parallelograms of one covariance it is the
-// one whose rows an outline crosses at a single x each, so that a segment costs a row's work and not
-// a sample's.
+// a mask. A footprint's parallelogram has eight rows of four samples, and bit i = 4 k + j of a mask is
+// sample j of row k. Its first axis is horizontal. The samples go down evenly from one to the next, so
+// those between two heights are a range of bits; and no two have the same x.
 
 struct VtexRows {
-    // The first row's height, from one to the next, and the inverse of that.
+    // The first sample's height, from one to the next, and the inverse of that.
     y: f32,
     dy: f32,
     per_y: f32,
-    // Left end of the first row, and from one to the next.
+    // Left end of the first row, and from one row to the next.
     x: f32,
     dx: f32,
-    // From one sample to the next, and its inverse.
+    // Width of a column.
     pitch: f32,
-    per_x: f32,
+    // How far right in their columns the samples of the first row lie, in eighths.
+    shift: i32,
 }
 
 struct VtexSamples {
@@ -25,8 +26,8 @@ struct VtexSamples {
     rows: VtexRows,
     // From that corner to this cell's.
     cell: vec2f,
-    // That corner in uv, and the uv of a cell.
-    home_uv: vec2f,
+    // The lookup's place, and the extent of a cell, in uv.
+    uv: vec2f,
     uv_per_cell: vec2f,
     // In units of this cell's box.
     units: VtexRows,
@@ -47,16 +48,40 @@ const VTEX_SAMPLES_EVERY: u32 = VTEX_ROWS_EVERY;
 
 // A row and a column are no smaller, in cells.
 const VTEX_ROWS_LEAST: f32 = 1e-12;
+// The samples of a row, and the columns that they lie in: `VTEX_ROWS_ORDER`.
+const VTEX_ROWS_ROW: vec4f = vec4f(0.0, 1.0, 2.0, 3.0);
+const VTEX_ROWS_COLUMN: vec4f = vec4f(2.0, 0.0, 3.0, 1.0);
 
 // No sample lies farther from the centre, in cells, along x and along y. A bound without a root: the
 // sides of a parallelogram of one covariance add up to no more than sqrt(2) times what theirs do.
-fn vtex_rows_reach(axes: vec4f) -> vec2f {
+fn vtex_rows_extent(axes: vec4f) -> vec2f {
     return (abs(axes.xy) + abs(axes.zw)) * vec2f(0.7072, 0.5);
 }
 
+// The samples move from pixel to pixel. A line that runs along x or y, or by simple steps like one to
+// two, meets all pixels in the same places: with the same samples in each it would have too much or too
+// little of its ink all along.
+struct VtexRowsPhase {
+    // In parts of the room that each sample has for itself in x and in y.
+    moved: vec2f,
+    // By how many eighths of a column all rows are shifted, within their columns.
+    shift: i32,
+}
+
+// `p` is the lookup's place in cells.
+fn vtex_rows_phase(p: vec2f, axes: vec4f) -> VtexRowsPhase {
+    let extent = max(abs(axes.xy) + abs(axes.zw), vec2f(VTEX_ROWS_LEAST));
+    // Divided by the power of two below: exactly, and so alike everywhere. From one pixel to the next
+    // it grows by 1 to 2 at most.
+    let exponent = bitcast<vec2u>(extent) & vec2u(0x7f800000u);
+    let t = p * bitcast<vec2f>(vec2u(0x7f000000u) - exponent);
+    // None where there is no extent.
+    let moved = fract(vec2f(0.313, 0.322) * t.yx + 0.5) - 0.5;
+    return VtexRowsPhase(moved, i32(8.0 * fract(0.306 * t.x + 0.482 * t.y)));
+}
+
 // About `centre`; `axes` are those of the footprint.
-fn vtex_rows(centre: vec2f, axes: vec4f) -> VtexRows {
-    let xx = axes.x * axes.x + axes.z * axes.z;
+fn vtex_rows(centre: vec2f, axes: vec4f, phase: VtexRowsPhase) -> VtexRows {
     let xy = axes.x * axes.y + axes.z * axes.w;
     let yy = axes.y * axes.y + axes.w * axes.w;
     // The parallelogram with a horizontal axis whose covariance is the same.
@@ -65,130 +90,150 @@ fn vtex_rows(centre: vec2f, axes: vec4f) -> VtexRows {
     let per_height = 1.0 / height;
     let area = abs(axes.x * axes.w - axes.y * axes.z);
     let width = select(area * per_height, abs(axes.x) + abs(axes.z), level);
-    let dy = height * (1.0 / f32(VTEX_ROWS_ROWS));
+    let dy = height * (1.0 / f32(VTEX_ROWS_SAMPLES));
     let dx = select(xy * per_height, 0.0, level) * (1.0 / f32(VTEX_ROWS_ROWS));
     let pitch = max(width * (1.0 / f32(VTEX_ROWS_COLUMNS)), VTEX_ROWS_LEAST);
-    let y = centre.y - 3.5 * dy;
-    let x = centre.x - 3.5 * dx - 2.0 * pitch;
-    return VtexRows(y, dy, f32(VTEX_ROWS_ROWS) * per_height, x, dx, pitch, 1.0 / pitch);
+    let y = centre.y + (phase.moved.y - 15.5) * dy;
+    let x = centre.x - 3.875 * dx + (0.125 * phase.moved.x - 2.0) * pitch;
+    return VtexRows(y, dy, f32(VTEX_ROWS_SAMPLES) * per_height, x, dx, pitch, phase.shift);
 }
 
 // The same rows in other units.
 fn vtex_rows_scaled(rows: VtexRows, units: f32, offset: vec2f) -> VtexRows {
-    let per_unit = 1.0 / units;
     return VtexRows(
         rows.y * units + offset.y,
         rows.dy * units,
-        rows.per_y * per_unit,
+        rows.per_y / units,
         rows.x * units + offset.x,
         rows.dx * units,
         rows.pitch * units,
-        rows.per_x * per_unit,
+        rows.shift,
     );
 }
 
-// How many rows lie above `y`: half open, so that of two segments that meet on a row's height one
-// counts.
+// How many samples lie above `y`: half open, so that of two segments that meet at a sample's height
+// one counts.
 fn vtex_rows_above(rows: VtexRows, y: f32) -> i32 {
     // Integers are clamped, so that no number at all makes a loop over rows long.
-    return clamp(i32(ceil((y - rows.y) * rows.per_y)), 0, i32(VTEX_ROWS_ROWS));
+    return clamp(i32(ceil((y - rows.y) * rows.per_y)), 0, i32(VTEX_ROWS_SAMPLES));
 }
 
-// Where the first sample of a row lies.
+// Left end of a row's columns, less a half of an eighth, as its samples have it.
 fn vtex_rows_start(rows: VtexRows, row: i32) -> f32 {
-    let eighths = f32(bitcast<i32>((VTEX_ROWS_SHIFTS >> (4u * bitcast<u32>(row))) & 7u));
+    let eighths = f32((rows.shift + bitcast<i32>(VTEX_ROWS_SHIFT) * row) & 7);
     return rows.x + f32(row) * rows.dx + (0.125 * eighths + 0.0625) * rows.pitch;
 }
 
-// The samples of a row from `x` on, as its four bits. `start` is where its first lies.
-fn vtex_rows_from(rows: VtexRows, start: f32, x: f32) -> u32 {
-    let left = clamp(ceil((x - start) * rows.per_x), 0.0, f32(VTEX_ROWS_COLUMNS));
-    return 15u << bitcast<u32>(i32(left));
+// How far right of that the samples of a row lie.
+fn vtex_rows_across(rows: VtexRows) -> vec4f {
+    return (0.25 * rows.dx) * VTEX_ROWS_ROW + rows.pitch * VTEX_ROWS_COLUMN;
+}
+
+// The bit of each sample of a row for which something holds. As integers, since naga reads no vectors
+// of truths from SPIR-V that are joined.
+fn vtex_rows_marks(holds: vec4<bool>) -> vec4u {
+    return select(vec4u(0u), vec4u(1u, 2u, 4u, 8u), holds);
+}
+
+// The samples of a row that are marked, as four bits.
+fn vtex_rows_bits(marks: vec4u) -> u32 {
+    return marks.x | marks.y | marks.z | marks.w;
+}
+
+// The first samples, so many.
+fn vtex_rows_first_of(count: i32) -> u32 {
+    // In two shifts, as one of 32 is none.
+    let half = bitcast<u32>(count >> 1u);
+    return ~((VTEX_ROWS_EVERY << half) << (bitcast<u32>(count) - half));
 }
 
 // The samples in a box, its left and top sides included.
 fn vtex_rows_within(rows: VtexRows, low: vec2f, high: vec2f) -> u32 {
+    let first = vtex_rows_above(rows, low.y);
     let end = vtex_rows_above(rows, high.y);
+    let across = vtex_rows_across(rows);
     var mask = 0u;
-    for (var row = vtex_rows_above(rows, low.y); row < end; row += 1) {
-        let start = vtex_rows_start(rows, row);
-        let bits = vtex_rows_from(rows, start, low.x) & ~vtex_rows_from(rows, start, high.x);
-        mask |= (bits & 15u) << (4u * bitcast<u32>(row));
+    let rows_end = (end + 3) >> 2u;
+    for (var row = first >> 2u; row < rows_end; row += 1) {
+        let x = vtex_rows_start(rows, row) + across;
+        let right = vtex_rows_marks(x >= vec4f(low.x));
+        let bits = vtex_rows_bits(right & vtex_rows_marks(x < vec4f(high.x)));
+        mask |= bits << (4u * bitcast<u32>(row));
     }
-    return mask;
+    return mask & vtex_rows_first_of(end) & ~vtex_rows_first_of(first);
 }
 
 // Where a sample lies.
 fn vtex_rows_place(rows: VtexRows, index: u32) -> vec2f {
-    let row = bitcast<i32>(index >> 2u);
-    let x = vtex_rows_start(rows, row) + f32(bitcast<i32>(index & 3u)) * rows.pitch;
-    return vec2f(x, rows.y + f32(row) * rows.dy);
+    let place = index & 3u;
+    let column = (VTEX_ROWS_ORDER >> (4u * place)) & 3u;
+    let across = vec2f(0.25 * rows.dx, rows.pitch) * vec2f(vec2u(place, column));
+    let x = vtex_rows_start(rows, bitcast<i32>(index >> 2u)) + across.x + across.y;
+    return vec2f(x, rows.y + f32(bitcast<i32>(index)) * rows.dy);
 }
 
 fn vtex_rows_count(mask: u32, bits: u32) -> f32 {
     return f32(bitcast<i32>(countOneBits(mask & bits)));
 }
 
-// `home` is the corner of the centre's cell, `cell` from there to this one's, both in cells.
+// `cell` is the corner of this cell and `centre` the lookup's place, both from the corner of the cell
+// that it lies in, in cells.
 fn vtex_samples_of_rows(
-    vt: VtexTexture, rows: VtexRows, home: vec2f, cell: vec2f, centre: vec2f,
+    vt: VtexTexture, lookup: VtexLookup, rows: VtexRows, cell: vec2f, centre: vec2f,
 ) -> VtexSamples {
     let units = vt.curve_units.x;
     let scaled = vtex_rows_scaled(rows, units, vt.curve_units.y - cell * units);
     return VtexSamples(
         rows,
         cell,
-        (home - vt.cell_from_uv.zw) / vt.cell_from_uv.xy,
+        lookup.uv,
         1.0 / vt.cell_from_uv.xy,
         scaled,
-        scaled.x + min(7.0 * scaled.dx, 0.0),
-        scaled.x + max(7.0 * scaled.dx, 0.0) + 4.0 * scaled.pitch,
+        scaled.x + min(7.75 * scaled.dx, 0.0),
+        scaled.x + max(7.75 * scaled.dx, 0.0) + 4.0 * scaled.pitch,
         centre - cell,
     );
 }
 
-// The rows above the one with this number.
-fn vtex_rows_until(row: i32) -> u32 {
-    // In two shifts, as one of 32 is none.
-    let half = 2u * bitcast<u32>(row);
-    return ~((VTEX_ROWS_EVERY << half) << half);
-}
-
-// The samples right of a segment, in the rows that it crosses.
-fn vtex_rows_right(samples: VtexSamples, item: vec4u) -> u32 {
+// The samples right of a segment, between the heights of its ends. The test is that of
+// `vtex_segment_winding`, with all products about the upper end: so an edge along y is met at the same
+// x whatever its length.
+fn vtex_rows_right(samples: VtexSamples, command: vec4u) -> u32 {
     let rows = samples.units;
-    let a = vtex_segment_point(item.x);
-    let b = vtex_segment_point(item.z);
-    // A line's control point is its upper end: half way makes its parameter linear.
-    let line = (item.w & VTEX_ITEM_LINE_BIT) != 0u;
-    let c = select(vtex_segment_point(item.y), 0.5 * (a + b), line);
-    // x - x0 = t (x1 + t x2), y - y0 = t (2 half_slope + t bend).
-    let x1 = 2.0 * (c.x - a.x);
-    let x2 = a.x - 2.0 * c.x + b.x;
-    let half_slope = c.y - a.y;
-    let bend = a.y - 2.0 * c.y + b.y;
+    let a = vtex_segment_point(command.x);
+    let b = vtex_segment_point(command.z);
+    let to_c = vtex_segment_point(command.y) - a;
+    let to_b = b - a;
     let first = vtex_rows_above(rows, a.y);
     let end = vtex_rows_above(rows, b.y);
     // Most segments pass all samples on one side.
     let leftmost = max(a.x, b.x) < samples.left;
     let crosses = !leftmost && min(a.x, b.x) <= samples.right;
-    var mask = select(0u, vtex_rows_until(end) & ~vtex_rows_until(first), leftmost);
-    for (var row = select(end, first, crosses); row < end; row += 1) {
-        // The root that does not cancel: both differences are not negative.
-        let down = max(rows.y + f32(row) * rows.dy - a.y, 0.0);
-        let root = sqrt(max(half_slope * half_slope + bend * down, 0.0));
-        let t = down / max(half_slope + root, 1e-20);
-        let x = a.x + t * (x1 + t * x2);
-        mask |= (vtex_rows_from(rows, vtex_rows_start(rows, row), x) & 15u) << (4u * bitcast<u32>(row));
+    var mask = select(0u, VTEX_ROWS_EVERY, leftmost);
+    let bend = vtex_segment_cross(to_c, to_b);
+    let across = vtex_rows_across(rows);
+    let below = rows.dy * VTEX_ROWS_ROW;
+    let rows_end = select(0, (end + 3) >> 2u, crosses);
+    for (var row = first >> 2u; row < rows_end; row += 1) {
+        // From the upper end to the samples.
+        let x = (vtex_rows_start(rows, row) - a.x) + across;
+        let y = (rows.y - a.y + f32(4 * row) * rows.dy) + below;
+        let chord = x * to_b.y - y * to_b.x;
+        let before = x * to_c.y - y * to_c.x;
+        let inner = -4.0 * before * (bend - chord + before);
+        let near = vtex_rows_marks(chord * bend > vec4f(0.0));
+        let between = near & vtex_rows_marks(chord * chord < inner);
+        let right = vtex_rows_marks(chord >= vec4f(0.0)) ^ between;
+        mask |= vtex_rows_bits(right) << (4u * bitcast<u32>(row));
     }
-    return mask;
+    return mask & vtex_rows_first_of(end) & ~vtex_rows_first_of(first);
 }
 
 // Adds what a segment does to the windings.
-fn vtex_samples_wind(samples: VtexSamples, winding: VtexWinding, item: vec4u) -> VtexWinding {
-    var carry = vtex_rows_right(samples, item);
+fn vtex_samples_wind(samples: VtexSamples, winding: VtexWinding, command: vec4u) -> VtexWinding {
+    var carry = vtex_rows_right(samples, command);
     // All ones to count down.
-    let down = select(VTEX_ROWS_EVERY, 0u, (item.w & VTEX_ITEM_DOWN_BIT) != 0u);
+    let down = select(VTEX_ROWS_EVERY, 0u, (command.w & VTEX_CMD_DOWN_BIT) != 0u);
     var low = winding.low;
     let next0 = (low.x ^ down) & carry;
     let next1 = (low.y ^ down) & next0;
@@ -197,32 +242,35 @@ fn vtex_samples_wind(samples: VtexSamples, winding: VtexWinding, item: vec4u) ->
     return VtexWinding(low ^ vec4u(carry, next0, next1, next2), winding.high ^ next3);
 }
 
-// The samples that an entry with this last word covers.
-fn vtex_samples_filled(winding: VtexWinding, tail: u32) -> u32 {
+// The samples that an entry with this tag covers.
+fn vtex_samples_filled(winding: VtexWinding, tag: u32) -> u32 {
     // What the segments' windings are where all of it is none.
-    let none = 0u - bitcast<u32>(bitcast<i32>(tail << VTEX_ITEM_BASE_LEFT) >> VTEX_ITEM_BASE_RIGHT);
+    let none = 0u - bitcast<u32>(bitcast<i32>(tag << VTEX_CMD_BASE_LEFT) >> VTEX_CMD_BASE_RIGHT);
     let low = winding.low ^ (vec4u(0u) - ((vec4u(none) >> vec4u(0u, 1u, 2u, 3u)) & vec4u(1u)));
     let high = winding.high ^ (0u - ((none >> 4u) & 1u));
     let some = low.x | low.y | low.z | low.w | high;
-    return select(some, low.x, (tail & VTEX_ITEM_EVEN_ODD_BIT) != 0u);
+    return select(some, low.x, (tag & VTEX_CMD_EVEN_ODD_BIT) != 0u);
 }
 
-// The mean of samples, in uv. From counts of bits: of odd rows, of rows with bit 1 and of rows with
-// bit 2; then of rows whose shift has the bits 1, 2 and 4, in eighths; then of columns.
+// The mean of samples, in uv, each taken in the middle of the room that its row and column give it.
+// From counts of bits: of odd rows, of rows with bit 1 and of rows with bit 2; then of places in a row,
+// and of columns.
 fn vtex_samples_uv(samples: VtexSamples, mask: u32) -> vec2f {
     let rows = samples.rows;
-    let whole = max(vtex_rows_count(mask, VTEX_ROWS_EVERY), 1.0);
+    let per_whole = 1.0 / max(vtex_rows_count(mask, VTEX_ROWS_EVERY), 1.0);
     let row = vtex_rows_count(mask, 0xf0f0f0f0u) + 2.0 * vtex_rows_count(mask, 0xff00ff00u)
         + 4.0 * vtex_rows_count(mask, 0xffff0000u);
-    let eighths = vtex_rows_count(mask, 0x0ff0ff00u) + 2.0 * vtex_rows_count(mask, 0xf00fff00u)
-        + 4.0 * vtex_rows_count(mask, 0xf0f0f00fu);
-    let column = vtex_rows_count(mask, 0xaaaaaaaau) + 2.0 * vtex_rows_count(mask, 0xccccccccu);
-    let columns = (column + 0.125 * eighths) / whole + 0.0625;
+    let right = vtex_rows_count(mask, 0xccccccccu);
+    let place = vtex_rows_count(mask, 0xaaaaaaaau) + 2.0 * right;
+    let column = right + 2.0 * vtex_rows_count(mask, 0x55555555u);
+    // From the mean of all.
+    let down = (row + 0.25 * place) * per_whole - 3.875;
+    let across = column * per_whole - 1.5;
     let mean = vec2f(
-        rows.x + row / whole * rows.dx + columns * rows.pitch,
-        rows.y + row / whole * rows.dy,
+        down * rows.dx + across * rows.pitch,
+        down * f32(VTEX_ROWS_COLUMNS) * rows.dy,
     );
-    return samples.home_uv + mean * samples.uv_per_cell;
+    return samples.uv + mean * samples.uv_per_cell;
 }
 
 fn vtex_samples_q(samples: VtexSamples, index: u32) -> vec2f {

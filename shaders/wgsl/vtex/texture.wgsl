@@ -17,9 +17,9 @@ struct VtexTexture {
     curve_units: vec2f,
     texels_per_cell: u32,
     mip_texels_per_cell: f32,
-    // First words of fine cells, items, paints and tiles.
+    // First words of fine cells, commands, paints and tiles.
     cells: u32,
-    items: u32,
+    commands: u32,
     paints: u32,
     tiles: u32,
     // First word of the image records, and the size of image 0.

@@ -52,14 +52,14 @@ fn shoot(words: &[u32], shot: Shot) -> Picture {
 }
 
 /// Least PSNR at 1x from mips and from cells and at 4x from cells, dB: 1 or more below what was
-/// measured. The worst pages have 41.9, 41.1 and 37.9 dB (text) and 52.6, 51.8 and 41.0 (hairlines).
+/// measured. The worst page, of text, has 41.9, 41.9 and 39.0 dB.
 const LEAST_DB: [(&str, [f64; 3]); 6] = [
-    ("abutting", [60.0, 52.0, 55.0]),
-    ("abutting-halo", [60.0, 54.0, 60.0]),
-    ("hairlines", [50.0, 50.0, 40.0]),
-    ("hairlines-nearly-level", [60.0, 54.0, 45.0]),
-    ("join-seams", [45.0, 55.0, 60.0]),
-    ("text-8px", [40.0, 40.0, 36.0]),
+    ("abutting", [60.0, 58.0, 63.0]),
+    ("abutting-halo", [60.0, 61.0, 70.0]),
+    ("hairlines", [50.0, 52.0, 55.0]),
+    ("hairlines-nearly-level", [60.0, 62.0, 53.0]),
+    ("join-seams", [45.0, 52.0, 60.0]),
+    ("text-8px", [40.0, 40.0, 37.5]),
 ];
 
 #[test]
@@ -86,6 +86,7 @@ fn pages_come_near_to_the_truth() {
             psnr_db(&cells, 4.0),
         ];
         let reached = found.iter().zip(least_db).all(|(db, least)| *db >= least);
+
         assert!(reached, "{name}: {found:.1?} dB, not {least_db:?}");
     }
 }
@@ -105,11 +106,6 @@ fn ink(picture: &Picture) -> [[f64; 6]; 6] {
     ink
 }
 
-/// Columns of lines at 4, 30 and 77 degrees. Those at 0, 45 and 90 degrees lie in the same place of
-/// every pixel that they cross, so all lookups along a line err alike: a line of 0.02 pixels then has
-/// no ink or 1.5 times too much.
-const COLUMNS: [usize; 3] = [1, 2, 4];
-
 #[test]
 fn hairlines_keep_their_ink() {
     let svg = svg("hairlines");
@@ -117,12 +113,19 @@ fn hairlines_keep_their_ink() {
     for side_px in [480, 497, 512] {
         let found = ink(&shoot(&cells, shot(side_px)));
         for (width, row) in WIDTHS.iter().zip(found) {
-            // Some 38 samples lie on a line of 0.02 units: measured are 25% at worst. From 0.05 units on
-            // it is 7%.
-            let bound = if *width < 0.05 { 0.3 } else { 0.1 };
-            let kept = |column: usize| (row[column] - 1.0).abs() < bound;
-            let kept = COLUMNS.into_iter().all(kept);
+            // Some 38 samples lie on a line of 0.02 units, and 96 on one of 0.05: measured are 24% and
+            // 12% at worst. From 0.1 units on it is 6%.
+            let bound = match *width {
+                ..0.04 => 0.3,
+                ..0.08 => 0.15,
+                _ => 0.08,
+            };
+            let kept = row.iter().all(|ink| (ink - 1.0).abs() < bound);
             assert!(kept, "{width} units at {side_px} pixels: {row:.2?}");
+            // Errors are of either sign.
+            let mean = row.iter().sum::<f64>() / 6.0;
+            let kept = (mean - 1.0).abs() < 0.06;
+            assert!(kept, "{width} units at {side_px} pixels: {mean:.3}");
         }
     }
 }

@@ -6,8 +6,8 @@
 use vtex_format::{BlendMode, MaskKind};
 
 use super::{
-    clip::{self, Formula, Test},
-    entry::{Draft, draft_run},
+    clip::{self, Branch, Formula},
+    entry::{Draft, draft_ungrouped},
 };
 use crate::{
     cells::{
@@ -33,8 +33,8 @@ pub(super) enum Block<'a> {
 /// What is left of a group in a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct GroupDraft<'a> {
-    /// The tests of its clips.
-    pub(super) tests: Vec<Test<'a>>,
+    /// The branches of its clips.
+    pub(super) branches: Vec<Branch<'a>>,
     /// Masks whose weight differs within the cell.
     pub(super) masks: Vec<(MaskKind, Vec<Block<'a>>)>,
     /// How the body is composited as a whole; `None` when its entries may go straight into the
@@ -85,7 +85,7 @@ impl<'a> Block<'a> {
         // Open before a mask's picture, and the entry that takes its weight after it.
         let masks = group.masks.iter().map(|(_, blocks)| count(blocks) + 2);
         let open_and_close = if group.compositing.is_some() { 2 } else { 0 };
-        group.tests.len() + masks.sum::<usize>() + open_and_close + count(&group.body)
+        group.branches.len() + masks.sum::<usize>() + open_and_close + count(&group.body)
     }
 
     /// Adds the tiles that it names.
@@ -109,7 +109,7 @@ impl<'a> Block<'a> {
             Self::Group(group) => {
                 let plain =
                     |how: &Compositing| how.opacity >= 1.0 && how.blend == BlendMode::Normal;
-                group.tests.is_empty()
+                group.branches.is_empty()
                     && group.masks.is_empty()
                     && group.compositing.as_ref().is_none_or(plain)
                     && group.body.last().is_some_and(|block| block.hides(paints))
@@ -129,7 +129,7 @@ impl<'a> Drafting<'a, '_, '_> {
     /// may hold other nodes' items too; those are skipped.
     fn nodes(&mut self, nodes: &'a [Node], present: &[Present]) -> Vec<Block<'a>> {
         let mut blocks = Vec::new();
-        let mut run = Vec::new();
+        let mut ungrouped = Vec::new();
         let mut rest = present;
         while let Some((last, before)) = rest.split_last() {
             // The last node that begins at or before the item is the only one that can hold it.
@@ -137,11 +137,11 @@ impl<'a> Drafting<'a, '_, '_> {
             let node = nodes[..behind].last();
             match node.filter(|node| last.item < node.items()[1]) {
                 Some(Node::Item(_)) => {
-                    run.push(*last);
+                    ungrouped.push(*last);
                     rest = before;
                 }
                 Some(Node::Group(group)) => {
-                    if self.end_run(&mut run, &mut blocks) {
+                    if self.end_ungrouped(&mut ungrouped, &mut blocks) {
                         return blocks;
                     }
                     // The group owns a range of items, which is a suffix of what is left.
@@ -156,15 +156,15 @@ impl<'a> Drafting<'a, '_, '_> {
                 None => rest = before,
             }
         }
-        self.end_run(&mut run, &mut blocks);
+        self.end_ungrouped(&mut ungrouped, &mut blocks);
         blocks
     }
 
-    /// Adds the entries of `run`, items that no group comes between. Returns whether they hide the
-    /// rest.
-    fn end_run(&mut self, run: &mut Vec<Present>, blocks: &mut Vec<Block<'a>>) -> bool {
-        let items = std::mem::take(run);
-        let drafts = draft_run(self.input, items, self.cell, self.paints);
+    /// Adds the entries of `ungrouped`, items that no group comes between. Returns whether they
+    /// hide the rest.
+    fn end_ungrouped(&mut self, ungrouped: &mut Vec<Present>, blocks: &mut Vec<Block<'a>>) -> bool {
+        let items = std::mem::take(ungrouped);
+        let drafts = draft_ungrouped(self.input, items, self.cell, self.paints);
         blocks.extend(drafts.into_iter().map(Block::Entry));
         blocks.last().is_some_and(|block| block.hides(self.paints))
     }
@@ -193,7 +193,7 @@ impl<'a> Drafting<'a, '_, '_> {
         if opacity <= 0.0 {
             return Vec::new();
         }
-        let tests = formula.into_tests();
+        let branches = formula.into_branches();
         // The same rule as for the drawing, but with what is left in this cell.
         let is_group = group.isolated || opacity < 1.0 || !masks.is_empty();
         let mut body = body;
@@ -205,11 +205,11 @@ impl<'a> Drafting<'a, '_, '_> {
         if masks.is_empty() && group.blend == BlendMode::Normal && self.fades(&mut body, opacity) {
             compositing = None;
         }
-        if tests.is_empty() && compositing.is_none() {
+        if branches.is_empty() && compositing.is_none() {
             return body;
         }
         vec![Block::Group(GroupDraft {
-            tests,
+            branches,
             masks,
             compositing,
             body,

@@ -1,8 +1,8 @@
-//! The clips of a group in one cell, as conditional jumps.
+//! The clips of a group in one cell, as conditional branches.
 //!
 //! In most cells a clip is everywhere or nowhere, and costs nothing. Only outlines that cross the
-//! cell become tests. The tests evaluate a formula of unions and intersections the way compilers
-//! evaluate `&&` and `||`: each test may decide the whole and jump.
+//! cell become branches. They evaluate a formula of unions and intersections the way compilers
+//! evaluate `&&` and `||`: each may decide the whole and be taken.
 
 use super::entry::{CurvesDraft, draft_curves};
 use crate::{
@@ -23,14 +23,14 @@ pub(super) enum Formula<'a> {
     Any(Vec<Self>),
 }
 
-/// One jump: lookups on one side of an outline skip what follows.
+/// One branch: lookups on one side of an outline skip what follows.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Test<'a> {
+pub(super) struct Branch<'a> {
     pub(super) outline: CurvesDraft<'a>,
-    /// Whether lookups inside jump, or those outside.
-    pub(super) jumps_inside: bool,
-    /// Index of the test that they continue with. The number of tests stands for the group's body,
-    /// `None` for the end of the group.
+    /// Whether it is taken inside, instead of outside.
+    pub(super) taken_inside: bool,
+    /// Index of the branch that they continue with. The number of branches stands for the group's
+    /// body, `None` for the end of the group.
     pub(super) to: Option<usize>,
 }
 
@@ -75,7 +75,7 @@ fn all<'a>(formulas: impl IntoIterator<Item = Formula<'a>>) -> Formula<'a> {
             // One empty member makes the intersection empty.
             Formula::Never => return Formula::Never,
             Formula::Always => {}
-            // Nested intersections become one, which saves jumps to jumps.
+            // Nested intersections become one, which saves branches to branches.
             Formula::All(inner) => kept.extend(inner),
             other => kept.push(other),
         }
@@ -107,15 +107,15 @@ fn any<'a>(formulas: impl IntoIterator<Item = Formula<'a>>) -> Formula<'a> {
 }
 
 impl<'a> Formula<'a> {
-    /// The tests that precede a body which shows only where the formula holds.
-    pub(super) fn into_tests(self) -> Vec<Test<'a>> {
+    /// The branches that precede a body which shows only where the formula holds.
+    pub(super) fn into_branches(self) -> Vec<Branch<'a>> {
         let mut code = Code::default();
-        code.jump_if(self, false, Label::End);
+        code.branch_if(self, false, Label::End);
         code.finish()
     }
 }
 
-/// The target of a jump whose place may not be known yet.
+/// The target of a branch whose place may not be known yet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Label {
     /// The end of the group.
@@ -124,19 +124,19 @@ enum Label {
     Place(usize),
 }
 
-/// Short-circuit evaluation. Tests are in order and jumps go forward only, so evaluation ends.
+/// Short-circuit evaluation. Branches are in order and go forward only, so evaluation ends.
 #[derive(Debug, Default)]
 struct Code<'a> {
-    tests: Vec<(CurvesDraft<'a>, bool, Label)>,
+    branches: Vec<(CurvesDraft<'a>, bool, Label)>,
     places: Vec<usize>,
 }
 
 impl<'a> Code<'a> {
-    /// Emits tests that jump where `formula` is `value` and fall through elsewhere.
-    fn jump_if(&mut self, formula: Formula<'a>, value: bool, to: Label) {
+    /// Emits branches that are taken where `formula` is `value` and fall through elsewhere.
+    fn branch_if(&mut self, formula: Formula<'a>, value: bool, to: Label) {
         match formula {
             Formula::Always | Formula::Never => {}
-            Formula::Inside(outline) => self.tests.push((*outline, value, to)),
+            Formula::Inside(outline) => self.branches.push((*outline, value, to)),
             // An intersection is false as soon as one member is.
             Formula::All(formulas) => self.chain(formulas, false, value, to),
             // A union is true as soon as one member is.
@@ -144,41 +144,42 @@ impl<'a> Code<'a> {
         }
     }
 
-    /// As [`Self::jump_if`], for formulas of which the first that is `decisive` decides the whole.
+    /// As [`Self::branch_if`], for formulas of which the first that is `decisive` decides the
+    /// whole.
     fn chain(&mut self, mut formulas: Vec<Formula<'a>>, decisive: bool, value: bool, to: Label) {
-        // Every member may decide on its own, so each jumps to the target directly.
+        // Every member may decide on its own, so each branches to the target directly.
         if decisive == value {
             for formula in formulas {
-                self.jump_if(formula, value, to);
+                self.branch_if(formula, value, to);
             }
             return;
         }
-        // Otherwise the target is reached only if no member decides. All but the last jump behind
-        // the whole when they decide; the last one alone can jump to the target.
+        // Otherwise the target is reached only if no member decides. All but the last branch behind
+        // the whole when they decide; the last one alone can branch to the target.
         let last = formulas.pop();
         let behind = Label::Place(self.places.len());
         self.places.push(0);
         let Label::Place(place) = behind else { return };
         for formula in formulas {
-            self.jump_if(formula, decisive, behind);
+            self.branch_if(formula, decisive, behind);
         }
         if let Some(last) = last {
-            self.jump_if(last, value, to);
+            self.branch_if(last, value, to);
         }
         // Here the evaluation continues when a member has decided.
-        self.places[place] = self.tests.len();
+        self.places[place] = self.branches.len();
     }
 
-    fn finish(self) -> Vec<Test<'a>> {
+    fn finish(self) -> Vec<Branch<'a>> {
         let places = self.places;
-        let test = |(outline, jumps_inside, to)| Test {
+        let branch = |(outline, taken_inside, to)| Branch {
             outline,
-            jumps_inside,
+            taken_inside,
             to: match to {
                 Label::End => None,
                 Label::Place(place) => Some(places[place]),
             },
         };
-        self.tests.into_iter().map(test).collect()
+        self.branches.into_iter().map(branch).collect()
     }
 }

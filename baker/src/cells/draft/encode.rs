@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use vtex_format::{
-    CellWord, Entry, EntryKind, MAX_ENTRIES_PER_CELL, MAX_FRAMES, MaskKind, list_frames,
+    CellWord, Entry, EntryKind, MAX_BLEND_DEPTH, MAX_ENTRIES_PER_CELL, MaskKind, list_blend_depth,
 };
 
 use super::{
     block::{Block, Compositing, GroupDraft},
-    clip::Test,
+    clip::Branch,
     entry::{CurvesDraft, Draft},
 };
 use crate::{
@@ -88,7 +88,7 @@ impl<'p> ListEncoder<'p> {
             last.last = true;
         }
         // Invariant of the format: evaluators have a stack of fixed size.
-        if list_frames(&entries).map_or(true, |frames| frames > MAX_FRAMES) {
+        if list_blend_depth(&entries).map_or(true, |depth| depth > MAX_BLEND_DEPTH) {
             return Err(BakeError::Limit("groups nest too deeply".into()));
         }
         let mut words = Vec::with_capacity(2 * entries.len());
@@ -117,15 +117,15 @@ impl<'p> ListEncoder<'p> {
         Ok(())
     }
 
-    /// Tests, then masks, then the body. Offsets of jumps count the entries that they skip: to the
-    /// next test they continue with, or to the group's end.
+    /// Branches, then masks, then the body. Offsets of branches count the entries that they skip:
+    /// to the next branch they continue with, or to the group's end.
     fn group(&mut self, group: &GroupDraft<'_>, entries: &mut Vec<Entry>) -> Result<(), BakeError> {
-        // Absolute places first; offsets are counted from the entry after the jump.
+        // Absolute places first; offsets are counted from the entry after the branch.
         let end = entries.len() + Block::group_entry_count(group);
         let first = entries.len();
-        for (place, test) in group.tests.iter().enumerate() {
-            let to = test.to.map_or(end, |test| first + test);
-            let entry = self.test(test, to - (first + place + 1))?;
+        for (place, branch) in group.branches.iter().enumerate() {
+            let to = branch.to.map_or(end, |branch| first + branch);
+            let entry = self.branch(branch, to - (first + place + 1))?;
             entries.push(entry);
         }
         for (kind, blocks) in &group.masks {
@@ -143,13 +143,13 @@ impl<'p> ListEncoder<'p> {
         Ok(())
     }
 
-    fn test(&mut self, test: &Test<'_>, skipped: usize) -> Result<Entry, BakeError> {
+    fn branch(&mut self, branch: &Branch<'_>, skipped: usize) -> Result<Entry, BakeError> {
         Ok(Entry {
-            kind: EntryKind::Test,
-            // In a test this bit says which side jumps.
-            opaque: test.jumps_inside,
+            kind: EntryKind::Branch,
+            // In a branch this bit says on which side it is taken.
+            opaque: branch.taken_inside,
             index: count(skipped)?,
-            data: self.record_offset(&test.outline)?,
+            data: self.record_offset(&branch.outline)?,
             ..CONTROL
         })
     }

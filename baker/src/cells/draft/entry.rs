@@ -38,7 +38,7 @@ pub(super) struct CurvesDraft<'a> {
 
 /// The entries of items that no group comes between, front to back. Entries of equal paint are
 /// merged, full ones folded into one colour, and all is cut behind the first that hides the rest.
-pub(super) fn draft_run<'a>(
+pub(super) fn draft_ungrouped<'a>(
     input: &CellInput<'a>,
     mut items: Vec<Present>,
     cell: u32,

@@ -1,7 +1,7 @@
 //! Packing into layers: greedy, and painter's order is kept.
 //!
 //! An item gets the lowest rank above every earlier item that it meets. Two items meet when their
-//! filled regions, as seen inside a window, come within a reach of each other. By construction
+//! filled regions, as seen inside a window, come within a spacing of each other. By construction
 //! members of a rank do not meet, and painter's order is kept wherever it can be seen. The number
 //! of ranks is the length of the longest chain of items each of which meets the next; no packing
 //! that keeps the order has fewer.
@@ -37,23 +37,23 @@ pub(crate) fn pack_items(
     // the range of two shapes, because it stores one distance. In a record shapes only must not overlap;
     // two margins are more than that takes.
     let shapes = || placed.iter().filter(|item| item.is_shape());
-    let reach = if shapes().all(Placed::is_curves) {
+    let spacing = if shapes().all(Placed::is_curves) {
         2.0 * scales.distances.margin
     } else {
         scales.range
     };
-    // Lookups stay on the canvas, but tiles at its border see outlines up to the reach beyond it.
-    let window = lattice.canvas.inflate(reach, reach);
+    // Lookups stay on the canvas, but tiles at its border see outlines up to the spacing beyond it.
+    let window = lattice.canvas.inflate(spacing, spacing);
     if merge {
-        merge_all(placed, window, reach)
+        merge_all(placed, window, spacing)
     } else {
-        pack(placed, window, reach)
+        pack(placed, window, spacing)
     }
 }
 
-/// Packs `items`. What lies outside `window` does not count; items within `reach` steps meet.
-fn pack(items: &[Placed], window: Rect, reach: f64) -> Packing {
-    let mut packer = Packer::new(items, window, reach);
+/// Packs `items`. What lies outside `window` does not count; items within `spacing` steps meet.
+fn pack(items: &[Placed], window: Rect, spacing: f64) -> Packing {
+    let mut packer = Packer::new(items, window, spacing);
     for index in 0..items.len() {
         packer.add(index);
     }
@@ -69,11 +69,11 @@ fn pack(items: &[Placed], window: Rect, reach: f64) -> Packing {
 }
 
 /// \[SFG22\]'s "merge all": every item in rank 0, whatever they touch.
-fn merge_all(items: &[Placed], window: Rect, reach: f64) -> Packing {
+fn merge_all(items: &[Placed], window: Rect, spacing: f64) -> Packing {
     Packing {
         ranks: vec![0; items.len()],
         count: u32::from(!items.is_empty()),
-        forced: pack(items, window, reach).count > 1,
+        forced: pack(items, window, spacing).count > 1,
     }
 }
 

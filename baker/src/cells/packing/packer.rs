@@ -9,7 +9,7 @@ use crate::{
     number::floor_index,
 };
 
-/// How far flattening may move an outline, in steps. The reach grows by twice as much, because
+/// How far flattening may move an outline, in steps. The spacing grows by twice as much, because
 /// both outlines are flattened.
 pub(super) const FLATTEN_TOLERANCE: f64 = 0.05;
 /// Buckets along the window's longer side. A line is at most as long as a bucket.
@@ -19,36 +19,36 @@ const BUCKETS: f64 = 128.0;
 #[derive(Debug, Default)]
 struct Boundary {
     lines: Vec<Line>,
-    /// One point of each run of connected lines.
-    run_points: Vec<Point>,
+    /// One point of each polyline.
+    polyline_points: Vec<Point>,
 }
 
 /// The items so far and their ranks.
 pub(super) struct Packer<'a> {
     items: &'a [Placed],
     window: Rect,
-    reach: f64,
+    spacing: f64,
     /// Rank of each item so far.
     pub(super) ranks: Vec<usize>,
     /// Items of each rank.
     pub(super) members: Vec<Vec<usize>>,
-    run_points: Vec<Vec<Point>>,
+    polyline_points: Vec<Vec<Point>>,
     buckets: Buckets,
 }
 
 impl<'a> Packer<'a> {
-    /// Before the first item. What lies outside `window` does not count, and items within `reach`
+    /// Before the first item. What lies outside `window` does not count, and items within `spacing`
     /// steps of each other meet.
-    pub(super) fn new(items: &'a [Placed], window: Rect, reach: f64) -> Self {
-        let reach = reach + 2.0 * FLATTEN_TOLERANCE;
+    pub(super) fn new(items: &'a [Placed], window: Rect, spacing: f64) -> Self {
+        let spacing = spacing + 2.0 * FLATTEN_TOLERANCE;
         Self {
             items,
             window,
-            reach,
+            spacing,
             ranks: Vec::with_capacity(items.len()),
             members: Vec::new(),
-            run_points: Vec::with_capacity(items.len()),
-            buckets: Buckets::new(window, reach),
+            polyline_points: Vec::with_capacity(items.len()),
+            buckets: Buckets::new(window, spacing),
         }
     }
 
@@ -56,14 +56,14 @@ impl<'a> Packer<'a> {
     pub(super) fn add(&mut self, index: usize) {
         // A clip outline paints nothing, so it cannot meet anything.
         if self.items[index].kind == PlacedKind::Clip {
-            self.run_points.push(Vec::new());
+            self.polyline_points.push(Vec::new());
             self.ranks.push(0);
             return;
         }
         // Lines no longer than a bucket lie in few buckets.
         let side = self.buckets.side;
         let boundary = boundary(&self.items[index], self.window, side);
-        self.run_points.push(boundary.run_points);
+        self.polyline_points.push(boundary.polyline_points);
         // Ranks below the floor need no inside tests: the item must go above them anyway.
         let floor = self.rank_above_near(&boundary.lines);
         let rank = self.rank_above_containing(index, floor);
@@ -78,17 +78,17 @@ impl<'a> Packer<'a> {
         }
     }
 
-    /// The lowest rank above every earlier item whose boundary comes within reach of `lines`.
+    /// The lowest rank above every earlier item whose boundary comes within the spacing of `lines`.
     fn rank_above_near(&self, lines: &[Line]) -> usize {
         let mut lowest = 0;
         for line in lines {
-            let area = Rect::from_points(line.p0, line.p1).inflate(self.reach, self.reach);
+            let area = Rect::from_points(line.p0, line.p1).inflate(self.spacing, self.spacing);
             for bucket in self.buckets.in_box(area) {
                 // Later items tend to have higher ranks. Once one of them is near, lines of lower
                 // rank cannot change the result and need no distance: start with the latest.
                 for &(item, other) in self.buckets.lines[bucket].iter().rev() {
                     let rank = self.ranks[item];
-                    if rank >= lowest && line_line_distance(*line, other) <= self.reach {
+                    if rank >= lowest && line_line_distance(*line, other) <= self.spacing {
                         lowest = rank + 1;
                     }
                 }
@@ -111,18 +111,20 @@ impl<'a> Packer<'a> {
     }
 
     /// Whether two items overlap whose boundaries do not touch inside the window. Then one contains
-    /// a whole run of the other's boundary, so one point for each run decides; or both fill the
-    /// window, so its centre does.
+    /// a whole polyline of the other's boundary, so one point for each polyline decides; or both
+    /// fill the window, so its centre does.
     fn one_holds_other(&self, a: usize, b: usize) -> bool {
         let (item_a, item_b) = (&self.items[a], &self.items[b]);
         let common = item_a.bounds().intersect(item_b.bounds());
         if common.width() <= 0.0 || common.height() <= 0.0 {
             return false;
         }
-        let holds = |outer: &Placed, runs: &[Point]| runs.iter().any(|p| outer.region.contains(*p));
+        let holds = |outer: &Placed, polylines: &[Point]| {
+            polylines.iter().any(|p| outer.region.contains(*p))
+        };
         let center = self.window.center();
-        holds(item_a, &self.run_points[b])
-            || holds(item_b, &self.run_points[a])
+        holds(item_a, &self.polyline_points[b])
+            || holds(item_b, &self.polyline_points[a])
             || (item_a.region.contains(center) && item_b.region.contains(center))
     }
 }
@@ -144,10 +146,10 @@ fn add_contour(contour: &[Point], window: Rect, longest: f64, boundary: &mut Bou
             run_end = None;
             continue;
         };
-        // Clipping cuts the boundary into runs. Within a run one point speaks for all, because
-        // nothing crosses it: near boundaries have been dealt with.
+        // Clipping cuts the boundary into polylines. On a polyline one point speaks for all,
+        // because nothing crosses it: near boundaries have been dealt with.
         if run_end != Some(line.p0) {
-            boundary.run_points.push(line.p0);
+            boundary.polyline_points.push(line.p0);
         }
         run_end = Some(line.p1);
         boundary.lines.extend(pieces(line, longest));
@@ -160,15 +162,15 @@ struct Buckets {
     side: f64,
     columns: usize,
     rows: usize,
-    /// For each bucket the lines that reach into it, with their items, in painter's order.
+    /// For each bucket the lines that come into it, with their items, in painter's order.
     lines: Vec<Vec<(usize, Line)>>,
 }
 
 impl Buckets {
-    fn new(window: Rect, reach: f64) -> Self {
-        // A bucket is at least as wide as the reach, so near lines are in the same bucket or a
+    fn new(window: Rect, spacing: f64) -> Self {
+        // A bucket is at least as wide as the spacing, so near lines are in the same bucket or a
         // neighbour.
-        let side = (window.width().max(window.height()) / BUCKETS).max(reach);
+        let side = (window.width().max(window.height()) / BUCKETS).max(spacing);
         let columns = floor_index(window.width() / side) + 1;
         let rows = floor_index(window.height() / side) + 1;
         Self {

@@ -37,26 +37,28 @@ fn lines(item: &Placed) -> Vec<Line> {
 }
 
 /// Whether two items meet: every line against every line, every vertex against the other's inside.
-fn meet(a: &Placed, b: &Placed, reach: f64) -> bool {
-    let apart = |a: Rect, b: Rect| !a.inflate(reach, reach).overlaps(b);
+fn meet(a: &Placed, b: &Placed, spacing: f64) -> bool {
+    let apart = |a: Rect, b: Rect| !a.inflate(spacing, spacing).overlaps(b);
     if apart(a.bounds(), b.bounds()) {
         return false;
     }
     let (lines_a, lines_b) = (lines(a), lines(b));
-    let close = lines_a
-        .iter()
-        .any(|x| lines_b.iter().any(|y| line_line_distance(*x, *y) <= reach));
+    let close = lines_a.iter().any(|x| {
+        lines_b
+            .iter()
+            .any(|y| line_line_distance(*x, *y) <= spacing)
+    });
     close
         || lines_a.iter().any(|line| b.region.contains(line.p0))
         || lines_b.iter().any(|line| a.region.contains(line.p0))
 }
 
-fn check(items: &[Placed], packing: &Packing, reach: f64) {
-    let exact_reach = reach + 2.0 * FLATTEN_TOLERANCE;
+fn check(items: &[Placed], packing: &Packing, spacing: f64) {
+    let exact_spacing = spacing + 2.0 * FLATTEN_TOLERANCE;
     let mut chain = vec![0; items.len()];
     for i in 0..items.len() {
         for j in 0..i {
-            if meet(&items[i], &items[j], exact_reach) {
+            if meet(&items[i], &items[j], exact_spacing) {
                 assert!(packing.ranks[j] < packing.ranks[i], "{j} and {i} meet");
                 chain[i] = chain[i].max(chain[j] + 1);
             }
@@ -74,8 +76,8 @@ fn ranks_are_the_longest_chains_of_shapes_that_meet() {
     for round in 0..30 {
         let size = [60.0, 200.0, 200.0][round % 3];
         let items = random_items(&mut random, 40, size);
-        let reach = random.within(0.5, 8.0);
-        check(&items, &pack(&items, WINDOW, reach), reach);
+        let spacing = random.within(0.5, 8.0);
+        check(&items, &pack(&items, WINDOW, spacing), spacing);
     }
 }
 
@@ -133,8 +135,8 @@ fn check_svg(svg: &[u8]) {
         crate::coverage::verdict::Verdict::forced(crate::coverage::verdict::Coverage::Msdf);
     let mut items = place(&drawing, &lattice, &vec![forced; drawing.items.len()]);
     items.retain(|item| item.kind != PlacedKind::Clip);
-    let reach = f64::from(config.distance_range_texels);
-    check(&items, &pack(&items, everywhere, reach), reach);
+    let spacing = f64::from(config.distance_range_texels);
+    check(&items, &pack(&items, everywhere, spacing), spacing);
 }
 
 /// Real drawings: members of a rank are disjoint, the order is kept, and ranks are as few as

@@ -26,7 +26,7 @@ fn config() -> BakeConfig {
 }
 
 fn drawing(items: Vec<Item>) -> Drawing {
-    Drawing::flat([100.0; 2], items)
+    Drawing::ungrouped([100.0; 2], items)
 }
 
 fn bake(outline: &BezPath, rule: FillRule) -> VtexFile {

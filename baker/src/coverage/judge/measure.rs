@@ -35,7 +35,7 @@ const FOLLOW_SHARE: f64 = 0.02;
 const STAND_OFF: f64 = 2.0;
 /// How far the search for a displaced edge goes, in steps, and in how many strides. Strides grow
 /// evenly, because small displacements matter most.
-const WALK_REACH_STEPS: f64 = 2.0;
+const WALK_LENGTH_STEPS: f64 = 2.0;
 const WALK_STRIDES: u32 = 64;
 /// Slivers thinner than this share of the bound on the error cannot be seen; their edges are not
 /// probed. More than [`FOLLOW_SHARE`], or probes beside the outline would look like slivers.
@@ -47,7 +47,7 @@ const FLATTEST_SLOPE: f64 = 0.25;
 const THIN_STEPS: f64 = 1.5;
 /// Errors nearer than this to a sharp corner are attributed to it. A corner of 20 degrees is
 /// thinner than [`THIN_STEPS`] up to this distance.
-const CUSP_REACH_STEPS: f64 = 4.0;
+const CUSP_RADIUS_STEPS: f64 = 4.0;
 /// Cosine of the largest angle of a sharp corner: 30 degrees.
 const CUSP_COSINE: f64 = 0.866;
 
@@ -222,13 +222,13 @@ impl<'a> Field<'a> {
     fn displacement(&self, p: Point, distance: f64, inwards: Vec2) -> f64 {
         let grown = distance > 0.0;
         let along = if grown { -inwards } else { inwards };
-        // Squares of even fractions: the first stride is 1/4096 of the reach.
+        // Squares of even fractions: the first stride is 1/4096 of the length.
         let spans = (1..=WALK_STRIDES)
-            .map(|k| WALK_REACH_STEPS * (f64::from(k) / f64::from(WALK_STRIDES)).powi(2));
+            .map(|k| WALK_LENGTH_STEPS * (f64::from(k) / f64::from(WALK_STRIDES)).powi(2));
         let next_edge = |s: f64| self.placed.region.contains(p + s * along) == grown;
         let next = spans.clone().find(|&s| next_edge(s));
-        // Half way to the next edge, if there is one within reach.
-        let most = next.map_or(WALK_REACH_STEPS, |s| 0.5 * s);
+        // Half way to the next edge, if there is one within the length.
+        let most = next.map_or(WALK_LENGTH_STEPS, |s| 0.5 * s);
         let changes = |s: f64| {
             self.distance(p + s * along)
                 .is_some_and(|d| (d > 0.0) != grown)
@@ -240,7 +240,7 @@ impl<'a> Field<'a> {
     /// What most of the errors are near to. A sharp corner is thin too, so it is asked about first.
     fn cause(&self, errors: &[(Point, Vec2)]) -> Finding {
         let cusps = cusps(&self.placed.outline);
-        let near_cusp = |p: Point| cusps.iter().any(|c| (*c - p).hypot() < CUSP_REACH_STEPS);
+        let near_cusp = |p: Point| cusps.iter().any(|c| (*c - p).hypot() < CUSP_RADIUS_STEPS);
         let (mut at_cusps, mut thin) = (0, 0);
         // Ask an even selection, because near a bad corner errors are many and alike.
         let every = errors.len().div_ceil(MAX_CAUSES).max(1);

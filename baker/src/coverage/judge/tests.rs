@@ -45,7 +45,7 @@ fn bake(drawing: Drawing, config: &BakeConfig) -> VtexFile {
 }
 
 fn drawing(canvas: f64, items: Vec<Item>) -> Drawing {
-    Drawing::flat([canvas; 2], items)
+    Drawing::ungrouped([canvas; 2], items)
 }
 
 fn alone(canvas_size: [f64; 2], shape: &Shape) -> Drawing {
@@ -56,7 +56,7 @@ fn alone(canvas_size: [f64; 2], shape: &Shape) -> Drawing {
         fill_rule: shape.fill_rule,
         source: shape.source,
     });
-    Drawing::flat(canvas_size, vec![shape])
+    Drawing::ungrouped(canvas_size, vec![shape])
 }
 
 /// What a dense check finds in the MSDF of one shape that is baked alone.
@@ -115,9 +115,9 @@ fn dense_check(canvas_size: [f64; 2], shape: &Shape, config: &BakeConfig) -> Den
             let off = displacement(&filled, &truth, p, inwards, 2.0 * step);
             found.push(off / units_per_px);
             let q = p + random.within(-1.5, 1.5) * step * normal;
-            let reach = config.error_px * units_per_px;
+            let radius = config.error_px * units_per_px;
             compared += 1;
-            wrong += u32::from(filled(q) != truth.contains(q) && is_clear(&truth, q, reach));
+            wrong += u32::from(filled(q) != truth.contains(q) && is_clear(&truth, q, radius));
         }
     }
     found.sort_by(f64::total_cmp);
@@ -128,12 +128,12 @@ fn dense_check(canvas_size: [f64; 2], shape: &Shape, config: &BakeConfig) -> Den
     }
 }
 
-/// Whether everything within `reach` of `p` is on the same side as `p`.
-fn is_clear(truth: &Region, p: Point, reach: f64) -> bool {
+/// Whether everything within `radius` of `p` is on the same side as `p`.
+fn is_clear(truth: &Region, p: Point, radius: f64) -> bool {
     let here = truth.contains(p);
     (0..16).all(|k| {
         let around = Vec2::from_angle(f64::from(k) * std::f64::consts::TAU / 16.0);
-        truth.contains(p + reach * around) == here
+        truth.contains(p + radius * around) == here
     })
 }
 

@@ -41,7 +41,7 @@ impl Rows {
 /// A shape in a tile.
 #[derive(Debug)]
 pub(crate) struct TileShape<'a> {
-    /// Edges within [`TileSpec::reach`] of the tile.
+    /// Edges within [`TileSpec::max_distance`] of the tile.
     pub(crate) edges: Vec<&'a Edge>,
     /// Its region ...
     pub(crate) region: &'a Region,
@@ -62,7 +62,7 @@ pub(crate) struct TileSpec<'a> {
     /// Edges further away than this many steps count as infinitely far. The rule is the same in
     /// every tile, so neighbouring tiles agree on the texels that they share. At least half the
     /// range.
-    pub(crate) reach: f64,
+    pub(crate) max_distance: f64,
     /// The shapes. They do not meet, except after a forced merge.
     pub(crate) shapes: Vec<TileShape<'a>>,
 }
@@ -100,10 +100,10 @@ fn texel(spec: &TileSpec<'_>, edges: &PreparedColoredShape, column: u32, row: u3
         .iter()
         .any(|shape| shape.rows.contains(shape.region, column, row));
     let p = Point2::new(f64::from(column), f64::from(row));
-    // Without an edge in reach a channel holds the end of the range on the right side.
+    // Without an edge within it a channel holds the end of the range on the right side.
     let far = if inside { spec.range } else { -spec.range };
     let stored = edges.distance3(p).map(|nearest| {
-        let distance = channel_distance(&nearest, p, spec.reach).unwrap_or(far);
+        let distance = channel_distance(&nearest, p, spec.max_distance).unwrap_or(far);
         quantise(distance / spec.range + 0.5)
     });
     // The side of the nearest edge is not always the truth: not at cusps, and not where outlines
@@ -115,13 +115,13 @@ fn texel(spec: &TileSpec<'_>, edges: &PreparedColoredShape, column: u32, row: u3
     }
 }
 
-/// Signed pseudo-distance of a channel; `None` when its nearest edge is beyond `reach`.
+/// Signed pseudo-distance of a channel; `None` when its nearest edge is beyond `max_distance`.
 fn channel_distance(
     nearest: &TrackedDistanceAndOrthogonality,
     p: Point2<f64>,
-    reach: f64,
+    max_distance: f64,
 ) -> Option<f64> {
-    let near = nearest.value.distance_squared.abs() <= reach * reach;
+    let near = nearest.value.distance_squared.abs() <= max_distance * max_distance;
     // fdsm divides by lengths that may be 0.
     let distance = near.then(|| nearest.signed_pseudo_distance(p))?;
     distance.is_finite().then_some(distance)

@@ -334,7 +334,7 @@ fn what_cannot_be_prepared_is_baked_as_drawn() {
         }
     }
     outline.close_path();
-    let drawing = Drawing::flat(
+    let drawing = Drawing::ungrouped(
         [CANVAS; 2],
         vec![shape(outline, FillRule::NonZero, [0.0, 0.0, 0.0, 1.0])],
     );

@@ -178,7 +178,7 @@ impl<'a> Walker<'a, '_> {
     }
 }
 
-/// How many jumps can be pending at once while the clip is tested and its group drawn: for each
+/// How many branches can be pending at once while the clip is decided and its group drawn: for each
 /// clip that contains another one past the group, and one past the rest of a union.
 fn clip_depth(clip: &usvg::ClipPath) -> u32 {
     let outer = clip.clip_path().map_or(0, clip_depth);

@@ -24,11 +24,12 @@ use crate::{
 const MAX_ELEMENTS: f64 = 262_144.0;
 /// Most tiles that are walked one by one, where copies cannot share an outline.
 const MAX_WALKED_TILES: f64 = 4096.0;
-/// Frames that a pattern takes: the clip to the shape, its opacity, the clip to the tile.
-const FRAMES: u32 = 5;
+/// Levels of the blend stack that a pattern takes: the clip to the shape, its opacity, the clip to
+/// the tile.
+const BLEND_LEVELS: u32 = 5;
 /// Levels of patterns inside a pattern that are expanded.
 const LEVELS: u32 = 1;
-/// How far content may reach beyond its tile without being clipped to it, as a share of the tile.
+/// How far content may extend beyond its tile without being clipped to it, as a share of the tile.
 const OVERHANG: f64 = 1e-6;
 
 /// The tiles that may show: a range of columns and of rows, counted from the tile at the origin.
@@ -103,7 +104,7 @@ impl<'a> Walker<'a, '_> {
         paints.into_iter().flatten().all(|paint| match paint {
             usvg::Paint::Pattern(pattern) => {
                 let tiles = Tiles::under(pattern, place.canvas_from_user, shown);
-                let deep = place.deeper(FRAMES).is_none();
+                let deep = place.deeper(BLEND_LEVELS).is_none();
                 !deep
                     && tiles.is_none_or(|tiles| {
                         tiles.count() * weight(pattern.root(), LEVELS) <= MAX_ELEMENTS
@@ -124,7 +125,7 @@ impl<'a> Walker<'a, '_> {
     ) {
         let bounds = outline.control_box().intersect(self.canvas);
         let tiles = Tiles::under(pattern, place.canvas_from_user, bounds);
-        let (Some(tiles), Some(inner)) = (tiles, place.deeper(FRAMES)) else {
+        let (Some(tiles), Some(inner)) = (tiles, place.deeper(BLEND_LEVELS)) else {
             return;
         };
         let first = self.next_item();

@@ -2,7 +2,7 @@
 
 use kurbo::{Affine, BezPath, Rect};
 use usvg::{ImageKind, Node};
-use vtex_format::{MAX_FRAMES, WarningCode};
+use vtex_format::{MAX_BLEND_DEPTH, WarningCode};
 
 use super::recolor::Recolor;
 use crate::{
@@ -15,19 +15,19 @@ use crate::{
     warning::Warnings,
 };
 
-/// How far a shape may reach, in canvases. usvg's coordinates are f32: further out neighbouring
+/// How far a shape may extend, in canvases. usvg's coordinates are f32: further out neighbouring
 /// ones are a sixteenth of a canvas or more apart. A rectangle of that size may still be meant as
 /// an endless background, but the arcs of a circle are noise there, and there can be millions of
 /// them.
-const MAX_REACH: f64 = 1_048_576.0;
-/// Most path elements of a shape that reaches further.
+const MAX_EXTENT: f64 = 1_048_576.0;
+/// Most path elements of a shape that extends further.
 const MAX_FAR_ELEMENTS: usize = 256;
 /// Most path elements of all outlines together, with strokes expanded. Later stages hold several
 /// copies of each.
 pub(super) const MAX_OUTLINE_ELEMENTS: usize = 1 << 22;
-/// Most frames that the groups and clips around an item may take on an evaluator's stack. Two
+/// Most levels of an evaluator's blend stack that the groups and clips around an item may take. Two
 /// remain for what the list of a cell adds.
-const MAX_DEPTH: u32 = MAX_FRAMES - 2;
+const MAX_DEPTH: u32 = MAX_BLEND_DEPTH - 2;
 
 /// The options that change geometry and colours.
 #[derive(Clone, Copy, Debug)]
@@ -64,7 +64,7 @@ pub(super) struct Place<'a> {
     /// Opacity of the groups around it that were folded. If it is below 1, everything inside can be
     /// folded too, see [`Walker::folds`].
     pub(super) opacity: f32,
-    /// Frames that evaluators need for the groups around it.
+    /// Levels of the blend stack that evaluators need for the groups around it.
     pub(super) depth: u32,
     /// The change that a filter around it makes to colours.
     pub(super) recolor: Option<Recolor>,
@@ -81,19 +81,19 @@ impl<'a> Place<'a> {
         }
     }
 
-    /// The place inside a group that takes `frames` more; `None` when there are too many.
-    pub(super) fn deeper(self, frames: u32) -> Option<Self> {
-        let depth = self.depth.saturating_add(frames);
+    /// The place inside a group that takes `levels` more; `None` when there are too many.
+    pub(super) fn deeper(self, levels: u32) -> Option<Self> {
+        let depth = self.depth.saturating_add(levels);
         (depth <= MAX_DEPTH).then_some(Self { depth, ..self })
     }
 }
 
 impl<'a> Walker<'a, '_> {
-    /// Whether a shape reaches so far that it must be left out. Warns about it.
+    /// Whether a shape extends so far that it must be left out. Warns about it.
     pub(super) fn is_too_far(&self, outline: &BezPath, element: &str) -> bool {
         let bounds = outline.control_box();
-        let reach = MAX_REACH * self.quality.canvas_longer_side;
-        let far = bounds.abs().width().max(bounds.abs().height()) > reach;
+        let max_extent = MAX_EXTENT * self.quality.canvas_longer_side;
+        let far = bounds.abs().width().max(bounds.abs().height()) > max_extent;
         let left_out = far && outline.elements().len() > MAX_FAR_ELEMENTS;
         if left_out {
             let message = "a shape reaches too far beyond the canvas and is left out";

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, ensure};
 use vtex_baker::{BakeConfig, Resources};
-use vtex_format::{Image, Limits, SectionInfo, Tag, directory};
+use vtex_format::{BundleInfo, Directory, Image, Limits, Tag, directory};
 use vtex_shaders::{PackOptions, pack};
 
 use crate::report::{Cell, Table};
@@ -15,7 +15,7 @@ const SFG22_SHAPE_BYTES: u64 = 512 * 512 * 3;
 /// The larger of the two zooms that files are baked for.
 const HIGH_ZOOM: f32 = 256.0;
 
-/// Groups of sections, the columns of the second table.
+/// Groups of sections, columns of the second table.
 const GROUPS: [(&str, &[Tag]); 6] = [
     ("curves", &[Tag::CURV, Tag::OUTL]),
     ("cells", &[Tag::CELL, Tag::ENTR]),
@@ -60,9 +60,11 @@ pub(crate) fn size_tables(files: &[PathBuf], resources: &Resources) -> Result<Ve
     );
     let mut columns = vec!["bytes stored (unpacked)"];
     columns.extend(GROUPS.iter().map(|(name, _)| *name));
-    columns.extend(["table", "file"]);
+    columns.extend(["several", "table", "file"]);
     let mut parts = Table::new("Bytes by sections", &columns);
-    parts.note("Default options. `table`: header, section table and padding.");
+    parts.note(
+        "Default options. `several`: bundles of small sections of several kinds. `table`: header and section table.",
+    );
     for path in files {
         let sizes = Sizes::of(path, resources)?;
         whole.row(sizes.row());
@@ -80,7 +82,7 @@ struct Sizes {
     words: u64,
     raster: u64,
     png: u64,
-    sections: Vec<SectionInfo>,
+    directory: Directory,
 }
 
 impl Sizes {
@@ -94,8 +96,8 @@ impl Sizes {
             Ok((file, bytes))
         };
         let (file, bytes) = bake(&BakeConfig::default())?;
-        let sections = directory(&bytes, &Limits::default())?.sections;
-        for section in &sections {
+        let directory = directory(&bytes, &Limits::default())?;
+        for section in &directory.sections {
             let tag = section.tag;
             let grouped = GROUPS.iter().any(|(_, tags)| tags.contains(&tag));
             // Else its bytes would be missing from every column.
@@ -118,7 +120,7 @@ impl Sizes {
             words: 4 * pack(&file, &PackOptions::default()).len() as u64,
             raster: levels.map(|level| level_bytes(size, level)).sum(),
             png: pixmap.encode_png().context("cannot encode a PNG")?.len() as u64,
-            sections,
+            directory,
             name,
         })
     }
@@ -130,7 +132,7 @@ impl Sizes {
             Cell::Text(self.name.clone()),
             Cell::Number(self.shapes as f64, 0),
             kilobytes(self.file),
-            whole(self.sections.iter().map(|s| s.raw_bytes).sum()),
+            whole(self.directory.bundles.iter().map(|b| b.raw_bytes).sum()),
             kilobytes(self.high_zoom),
             whole(self.words),
             whole(SFG22_SHAPE_BYTES * self.shapes),
@@ -141,16 +143,29 @@ impl Sizes {
 
     fn section_row(&self) -> Vec<Cell> {
         let mut cells = vec![Cell::Text(self.name.clone())];
-        for (_, tags) in GROUPS {
-            let group = || self.sections.iter().filter(|s| tags.contains(&s.tag));
-            let stored: u64 = group().map(|section| section.stored_bytes).sum();
-            let raw: u64 = group().map(|section| section.raw_bytes).sum();
+        let bundles = &self.directory.bundles;
+        let mut column = |wanted: Option<usize>| {
+            let group = || bundles.iter().filter(|bundle| self.group(bundle) == wanted);
+            let stored: u64 = group().map(|bundle| bundle.stored_bytes).sum();
+            let raw: u64 = group().map(|bundle| bundle.raw_bytes).sum();
             cells.push(Cell::Text(format!("{stored} ({raw})")));
-        }
-        let stored: u64 = self.sections.iter().map(|s| s.stored_bytes).sum();
+        };
+        (0..GROUPS.len()).map(Some).for_each(&mut column);
+        column(None);
+        let stored: u64 = bundles.iter().map(|bundle| bundle.stored_bytes).sum();
         cells.push(Cell::Number((self.file - stored) as f64, 0));
         cells.push(Cell::Number(self.file as f64, 0));
         cells
+    }
+}
+
+impl Sizes {
+    /// The group that all sections of a bundle belong to.
+    fn group(&self, bundle: &BundleInfo) -> Option<usize> {
+        let sections = self.directory.bundle_sections(bundle);
+        GROUPS
+            .iter()
+            .position(|(_, tags)| sections.iter().all(|section| tags.contains(&section.tag)))
     }
 }
 

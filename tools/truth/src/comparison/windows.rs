@@ -1,5 +1,5 @@
 //! Which windows a comparison looks at when it zooms in: those at edges. Elsewhere a drawing is a
-//! flat colour, and every texture is right.
+//! uniform colour, and every texture is right.
 
 use crate::TruthError;
 use crate::picture::{Picture, View, hash};

@@ -28,9 +28,7 @@ pub(super) fn run(args: &Validate, console: Console) -> Outcome<ExitCode> {
                     console.result(text.as_bytes())?;
                 }
                 if !issues.is_empty() {
-                    let count = issues.len();
-                    let message =
-                        format!("{name}: {count} issues found; bake or download the file again");
+                    let message = format!("{name}: {}", advice(&issues));
                     console.failure(&Failure::new(code(&issues), message));
                 }
                 reports.push(json!({"file": lossy(path), "issues": issues_json(&issues)}));
@@ -52,9 +50,28 @@ fn code(issues: &[Issue]) -> ExitCode {
     match issues.first().map(|issue| issue.fault) {
         None => ExitCode::Ok,
         Some(Fault::Malformed) => ExitCode::InvalidInput,
-        Some(Fault::Unsupported) => ExitCode::Unsupported,
+        Some(Fault::Unsupported | Fault::Outdated) => ExitCode::Unsupported,
         Some(Fault::Limits) => ExitCode::Limit,
     }
+}
+
+/// What to do about a file that has issues.
+fn advice(issues: &[Issue]) -> String {
+    let has = |fault| issues.iter().any(|issue| issue.fault == fault);
+    if has(Fault::Outdated) {
+        return "of an earlier version; bake it again: `vtex bake drawing.svg -o drawing.vtex`"
+            .to_owned();
+    }
+    let found = match issues.len() {
+        1 => "1 issue".to_owned(),
+        count => format!("{count} issues"),
+    };
+    let advice = if has(Fault::Unsupported) {
+        "read it with a newer version of vtex"
+    } else {
+        "bake or download the file again"
+    };
+    format!("{found} found; {advice}")
 }
 
 fn issues_json(issues: &[Issue]) -> Value {

@@ -25,7 +25,7 @@ pub(crate) fn parse(path: &Path, bytes: &[u8]) -> Outcome<VtexFile> {
 /// The failure for a file that cannot be read.
 pub(crate) fn read_failure(path: &Path, error: &ReadError) -> Failure {
     let code = match error {
-        ReadError::Unsupported { .. } => ExitCode::Unsupported,
+        ReadError::Unsupported { .. } | ReadError::Outdated { .. } => ExitCode::Unsupported,
         ReadError::Limits { .. } => ExitCode::Limit,
         _ => ExitCode::InvalidInput,
     };

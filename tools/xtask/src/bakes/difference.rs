@@ -40,8 +40,8 @@ impl Comparison {
         for name in names {
             let how = match (old.get(name), new.get(name)) {
                 (Some(a), Some(b)) if a == b => continue,
-                (Some(a), Some(b)) if a.raw_bytes == b.raw_bytes => "other bytes".to_owned(),
-                (Some(a), Some(b)) => format!("{} bytes, now {}", a.raw_bytes, b.raw_bytes),
+                (Some(a), Some(b)) if a.raw_bytes() == b.raw_bytes() => "other bytes".to_owned(),
+                (Some(a), Some(b)) => format!("{} bytes, now {}", a.raw_bytes(), b.raw_bytes()),
                 (Some(_), None) => "gone".to_owned(),
                 (None, _) => "new".to_owned(),
             };
@@ -158,11 +158,11 @@ mod tests {
         let spec = compare(&old, &[old[0], ("SPEC", 0, 2), old[2]]);
         assert!(spec.is_allowed(), "{spec:?}");
         assert_eq!(spec.text().as_deref(), Some("SPEC: other bytes"));
-        let tile = compare(&old, &[old[0], old[1], ("TILE", 1, 1)]);
+        let tile = compare(&old, &[old[0], old[1], ("TILE", 0, 2), ("TILE", 0, 3)]);
         assert!(!tile.is_allowed(), "{tile:?}");
         assert_eq!(
             tile.text().as_deref(),
-            Some("TILE 0 layers from 0: gone, and 1 more")
+            Some("TILE 0: other bytes, and 1 more")
         );
     }
 

@@ -111,10 +111,18 @@ fn json(file: &VtexFile, directory: &Directory) -> Value {
         json!({"rect_uv": image.rect_uv, "size": image.size, "levels": image.mips.len()})
     }).collect();
     let sections: Vec<_> = directory.sections.iter().map(|section| json!({
-        "tag": section.tag.to_string(), "codec": format!("{:?}", section.codec).to_lowercase(),
-        "raw_bytes": section.raw_bytes, "stored_bytes": section.stored_bytes,
-        "group": section.image, "mip": section.mip,
+        "tag": section.tag.to_string(), "raw_bytes": section.raw_bytes, "bundle": section.bundle,
     })).collect();
+    let bundles: Vec<_> = directory
+        .bundles
+        .iter()
+        .map(|bundle| {
+            json!({
+                "codec": format!("{:?}", bundle.codec).to_lowercase(),
+                "raw_bytes": bundle.raw_bytes, "stored_bytes": bundle.stored_bytes,
+            })
+        })
+        .collect();
     let shapes: Vec<_> = file
         .shapes
         .iter()
@@ -147,6 +155,7 @@ fn json(file: &VtexFile, directory: &Directory) -> Value {
         },
         "tiles": tile_count(file), "paints": file.paints.len(),
         "layers": layers, "shapes": shapes, "images": images, "sections": sections,
+        "bundles": bundles,
         "shader": {
             "abi": file.shader.abi, "features": feature_names(file.spec.features),
             "key": key(file), "wgsl_bytes": file.shader.wgsl_fragment.len(),
@@ -368,38 +377,33 @@ fn images(out: &mut String, file: &VtexFile) -> std::fmt::Result {
     )
 }
 
+/// Sections by the bundle that they are stored in.
 fn sections(out: &mut String, directory: &Directory) -> std::fmt::Result {
     writeln!(
         out,
-        "\nsections by tag\n{:5} {:>6} {:>12} {:>12}",
-        "tag", "parts", "raw", "stored"
+        "\nsections by bundle\n{:>12} {:>12}  sections",
+        "raw", "stored"
     )?;
-    let mut tags: Vec<_> = directory
-        .sections
-        .iter()
-        .map(|section| section.tag)
-        .collect();
-    tags.dedup();
-    for tag in tags {
-        let parts = || {
-            directory
-                .sections
-                .iter()
-                .filter(|section| section.tag == tag)
-        };
-        let raw: u64 = parts().map(|section| section.raw_bytes).sum();
-        let stored: u64 = parts().map(|section| section.stored_bytes).sum();
-        let tag = tag.to_string();
-        writeln!(out, "{tag:5} {:>6} {raw:>12} {stored:>12}", parts().count())?;
+    for bundle in &directory.bundles {
+        let mut tags: Vec<(String, usize)> = Vec::new();
+        for section in directory.bundle_sections(bundle) {
+            let tag = section.tag.to_string();
+            match tags.last_mut() {
+                Some((last, count)) if *last == tag => *count += 1,
+                _ => tags.push((tag, 1)),
+            }
+        }
+        let names = tags.into_iter().map(|(tag, count)| match count {
+            1 => tag,
+            count => format!("{count} {tag}"),
+        });
+        let names = names.collect::<Vec<_>>().join(" ");
+        let (raw, stored) = (bundle.raw_bytes, bundle.stored_bytes);
+        writeln!(out, "{raw:>12} {stored:>12}  {names}")?;
     }
     let raw = raw_bytes(directory);
-    writeln!(
-        out,
-        "{:5} {:>6} {raw:>12} {:>12}",
-        "all",
-        directory.sections.len(),
-        directory.file_bytes
-    )
+    let count = directory.sections.len();
+    writeln!(out, "{raw:>12} {:>12}  all {count}", directory.file_bytes)
 }
 
 fn warnings(out: &mut String, file: &VtexFile) -> std::fmt::Result {

@@ -105,9 +105,13 @@ pub(super) fn shapes(out: &mut String, file: &VtexFile, shown: usize) -> std::fm
     let columns = ["shape", "layer", "segments", "colour", "element"];
     let [shape, layer, segments, colour, element] = columns;
     let count = file.shapes.len();
+    let counted = match count {
+        1 => "1 shape".to_owned(),
+        _ => format!("{count} shapes"),
+    };
     writeln!(
         out,
-        "\n{count} shapes in painter's order: {}\n{shape:>5} {layer:>7} {segments:>9}  {colour:9}  {element}",
+        "\n{counted} in painter's order: {}\n{shape:>5} {layer:>7} {segments:>9}  {colour:9}  {element}",
         coverage_counts(file)
     )?;
     for (index, shape) in file.shapes.iter().enumerate().take(shown) {

@@ -2,18 +2,17 @@
 
 /// File of `cpu/`, its function, and the function of WGSL that it is the twin of.
 pub(super) const OTHERWISE: &[(&str, &str, &str)] = &[
-    ("edge.rs", "is_test", "vtex_groups_is_test"),
+    ("edge.rs", "is_branch", "vtex_groups_is_branch"),
     ("edge.rs", "within", "vtex_msdf_covered"),
     ("image.rs", "new", "vtex_image_region"),
     ("picture.rs", "fine_cell", "vtex_cell_fine"),
-    ("picture.rs", "shown", "vtex_lists"),
     ("picture.rs", "word_at", "vtex_cell_word"),
+    ("rows.rs", "new", "vtex_rows_phase"),
     ("rows.rs", "new", "vtex_samples_of_rows"),
     ("sample.rs", "sample", "vtex_sample_at"),
     ("settings.rs", "read", "vtex_texture"),
-    ("walk.rs", "finish", "vtex_hit_answer"),
-    ("walk.rs", "new", "vtex_hit_start"),
-    ("walk.rs", "of", "vtex_answer"),
+    ("walk.rs", "new", "vtex_composite_start"),
+    ("walk.rs", "of", "vtex_resolved"),
     ("words.rs", "word_float4", "vtex_word_float2"),
     ("words.rs", "words", "vtex_word2"),
     ("words.rs", "words", "vtex_word4"),
@@ -28,7 +27,7 @@ pub(super) const ONLY_RUST: &[(&str, &[&str], &str)] = &[
     ),
     (
         "edge.rs",
-        &["jumps", "target"],
+        &["taken", "target"],
         "WGSL has them in each walk: its walks share no loop over a mutable place",
     ),
     ("gradient.rs", &["is_zero"], "named for readers"),
@@ -59,7 +58,7 @@ pub(super) const ONLY_RUST: &[(&str, &[&str], &str)] = &[
     (
         "walk.rs",
         &["end", "hide", "part", "take", "value"],
-        "the variants of vtex_hit_draw have what they need of each",
+        "the variants of vtex_composite_draw have what they need of each",
     ),
     (
         "words.rs",
@@ -70,9 +69,9 @@ pub(super) const ONLY_RUST: &[(&str, &[&str], &str)] = &[
 
 /// Function of WGSL, and why the twin has none.
 pub(super) const ONLY_WGSL: &[(&str, &str)] = &[
-    ("vtex_answer_count", "one expression of Answer::of"),
+    ("vtex_resolved_count", "one expression of Resolved::of"),
     (
-        "vtex_outline_head",
+        "vtex_outline_tag",
         "settings.rs reads it once for all lookups",
     ),
     (
@@ -80,5 +79,6 @@ pub(super) const ONLY_WGSL: &[(&str, &str)] = &[
         "the twin takes the first two of all words",
     ),
     ("vtex_rows_count", "one expression of Rows::mean"),
+    ("vtex_rows_marks", "the twin has truths instead"),
     ("vtex_samples_in_cell", "picture.rs makes the struct"),
 ];

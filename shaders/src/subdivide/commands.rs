@@ -1,0 +1,177 @@
+//! The commands that evaluators walk for a list.
+
+use vtex_format::{Entry, EntryKind};
+
+use super::clip::{Clip, Goal};
+use super::group::Group;
+use super::list::{Node, Part};
+use super::outline::{Outline, Segment};
+use crate::layout::cmd;
+
+/// The last command of an entry holds a base winding of four bits.
+const BASE_LIMIT: i32 = 8;
+/// Lower end of the line that stands for a change of the winding: below every lookup.
+const LOWEST: u32 = 0xffff;
+
+/// In which order blocks beside each other lie in memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Order {
+    /// For evaluators that stop at what hides the rest.
+    FrontToBack,
+    /// For those that composite groups: each needs what lies behind it first.
+    BackToFront,
+}
+
+/// The commands of a list, four words each.
+pub(super) fn commands(nodes: &[Node], order: Order) -> Vec<[u32; 4]> {
+    let mut writer = Writer {
+        commands: Vec::new(),
+        branches: Vec::new(),
+        order,
+    };
+    writer.nodes(nodes);
+    writer.finish()
+}
+
+struct Writer {
+    commands: Vec<[u32; 4]>,
+    /// Last commands of entries that branch, and the commands they branch to.
+    branches: Vec<(usize, usize)>,
+    order: Order,
+}
+
+impl Writer {
+    fn nodes(&mut self, nodes: &[Node]) {
+        match self.order {
+            Order::FrontToBack => nodes.iter().for_each(|node| self.node(node)),
+            Order::BackToFront => nodes.iter().rev().for_each(|node| self.node(node)),
+        }
+    }
+
+    fn node(&mut self, node: &Node) {
+        match node {
+            Node::Draw(part) => self.draw(part),
+            Node::Clip(clip) => self.clip(clip),
+            Node::Group(group) => self.group(group),
+        }
+    }
+
+    fn draw(&mut self, Part { entry, outline }: &Part) {
+        match outline {
+            None => self.commands.push([entry.data, 0, 0, tag(entry)]),
+            Some(outline) => self.outline(outline, tag(entry)),
+        }
+    }
+
+    /// The commands of an outline, of which the last carries `tag`.
+    fn outline(&mut self, outline: &Outline, tag: u32) {
+        let first = self.commands.len();
+        let base = outline.base.clamp(-BASE_LIMIT, BASE_LIMIT - 1);
+        push_outline(&mut self.commands, outline, outline.base - base);
+        if self.commands.len() == first {
+            self.commands.push([0; 4]);
+        }
+        let base = (base.cast_unsigned() << cmd::BASE_RIGHT) >> cmd::BASE_LEFT;
+        let rule = if outline.even_odd {
+            cmd::EVEN_ODD_BIT
+        } else {
+            0
+        };
+        if let Some(end) = self.commands.last_mut() {
+            end[3] |= tag | base | rule;
+        }
+    }
+
+    fn clip(&mut self, clip: &Clip) {
+        let mut places = Vec::new();
+        let mut ends = Vec::new();
+        for branch in &clip.branches {
+            places.push(self.commands.len());
+            let inside = if branch.inside { cmd::OPAQUE_BIT } else { 0 };
+            let tag = cmd::END_BIT | cmd::CONTROL_BIT | inside;
+            match &branch.outline {
+                None => self.commands.push([0, 0, 0, cmd::JUMP | tag]),
+                Some(outline) => self.outline(outline, cmd::CURVES | tag),
+            }
+            ends.push(self.commands.len() - 1);
+        }
+        let body = self.commands.len();
+        self.nodes(&clip.body);
+        let end = self.commands.len();
+        for (branch, last) in clip.branches.iter().zip(ends) {
+            let target = match branch.to {
+                Goal::Branch(place) => places[place],
+                Goal::Body => body,
+                Goal::End => end,
+            };
+            self.branches.push((last, target));
+        }
+    }
+
+    fn group(&mut self, group: &Group) {
+        let mut masks = Vec::new();
+        for mask in &group.masks {
+            self.control([1, 0, 0], cmd::OPEN);
+            self.nodes(&mask.body);
+            masks.push(self.commands.len());
+            self.control([mask.kind, 0, 0], cmd::MASK);
+        }
+        let isolated = u32::from(group.isolated);
+        self.control([isolated, 0, 0], cmd::OPEN);
+        self.nodes(&group.body);
+        self.control([group.opacity, group.mode, isolated], cmd::CLOSE);
+        let end = self.commands.len();
+        self.branches
+            .extend(masks.into_iter().map(|mask| (mask, end)));
+    }
+
+    fn control(&mut self, [x, y, z]: [u32; 3], op: u32) {
+        let tag = cmd::END_BIT | cmd::CONTROL_BIT | op;
+        self.commands.push([x, y, z, tag]);
+    }
+
+    fn finish(mut self) -> Vec<[u32; 4]> {
+        let count = self.commands.len();
+        for (from, to) in self.branches {
+            let over = if to < count { to - from - 1 } else { 0 };
+            let over = u32::try_from(over).unwrap_or(0) & cmd::INDEX_MASK;
+            self.commands[from][3] |= over;
+        }
+        if let Some(last) = self.commands.last_mut() {
+            last[3] |= cmd::LAST_BIT;
+        }
+        self.commands
+    }
+}
+
+fn tag(entry: &Entry) -> u32 {
+    let opaque = if entry.opaque { cmd::OPAQUE_BIT } else { 0 };
+    let kind = match entry.kind {
+        EntryKind::Msdf => cmd::MSDF,
+        EntryKind::Curves => cmd::CURVES,
+        EntryKind::Image => cmd::IMAGE,
+        _ => cmd::FULL,
+    };
+    (entry.index & cmd::INDEX_MASK) | kind | cmd::END_BIT | opaque
+}
+
+/// `excess` is winding that the last command's base cannot hold.
+fn push_outline(commands: &mut Vec<[u32; 4]>, outline: &Outline, excess: i32) {
+    let changes = outline.changes.iter().copied();
+    for (height, change) in std::iter::once((0, excess)).chain(changes) {
+        let line = Segment {
+            points: [height << 16, height << 16, LOWEST << 16],
+            down: change > 0,
+            line: true,
+        };
+        commands.extend((0..change.unsigned_abs()).map(|_| encode(&line)));
+    }
+    commands.extend(outline.segments.iter().map(encode));
+}
+
+fn encode(segment: &Segment) -> [u32; 4] {
+    let [a, c, b] = segment.points;
+    let down = if segment.down { cmd::DOWN_BIT } else { 0 };
+    let line = if segment.line { cmd::LINE_BIT } else { 0 };
+    [a, c, b, down | line]
+}
