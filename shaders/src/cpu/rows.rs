@@ -15,7 +15,7 @@ use crate::layout::rows::{COLUMNS, EVERY, ROWS, SAMPLES, SHIFT};
 const LEAST: f32 = 1e-12;
 /// A number for each sample of a row.
 type Row = [f32; COLUMNS as usize];
-/// The samples of a row, and the columns that they lie in: `layout::rows::ORDER`.
+/// The samples of a row, and the columns that they lie in (docs/decisions/0016).
 const ROW: Row = [0.0, 1.0, 2.0, 3.0];
 const COLUMN: Row = [2.0, 0.0, 3.0, 1.0];
 /// Samples of odd rows, of rows with bit 1, and of rows with bit 2.

@@ -48,7 +48,7 @@ const VTEX_SAMPLES_EVERY: u32 = VTEX_ROWS_EVERY;
 
 // A row and a column are no smaller, in cells.
 const VTEX_ROWS_LEAST: f32 = 1e-12;
-// The samples of a row, and the columns that they lie in: `VTEX_ROWS_ORDER`.
+// The samples of a row, and the columns that they lie in (docs/decisions/0016).
 const VTEX_ROWS_ROW: vec4f = vec4f(0.0, 1.0, 2.0, 3.0);
 const VTEX_ROWS_COLUMN: vec4f = vec4f(2.0, 0.0, 3.0, 1.0);
 
@@ -165,10 +165,8 @@ fn vtex_rows_within(rows: VtexRows, low: vec2f, high: vec2f) -> u32 {
 
 // Where a sample lies.
 fn vtex_rows_place(rows: VtexRows, index: u32) -> vec2f {
-    let place = index & 3u;
-    let column = (VTEX_ROWS_ORDER >> (4u * place)) & 3u;
-    let across = vec2f(0.25 * rows.dx, rows.pitch) * vec2f(vec2u(place, column));
-    let x = vtex_rows_start(rows, bitcast<i32>(index >> 2u)) + across.x + across.y;
+    let across = vtex_rows_across(rows)[index & 3u];
+    let x = vtex_rows_start(rows, bitcast<i32>(index >> 2u)) + across;
     return vec2f(x, rows.y + f32(bitcast<i32>(index)) * rows.dy);
 }
 

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 use vtex_format::{Fault, Issue, Limits, validate};
 
 use crate::cli::args::Validate;
-use crate::cli::{Console, ExitCode, Failure, Format, Outcome};
+use crate::cli::{Console, ExitCode, Failure, Format, Outcome, counted};
 use crate::files::{input, lossy};
 
 /// Runs `vtex validate`.
@@ -62,10 +62,7 @@ fn advice(issues: &[Issue]) -> String {
         return "of an earlier version; bake it again: `vtex bake drawing.svg -o drawing.vtex`"
             .to_owned();
     }
-    let found = match issues.len() {
-        1 => "1 issue".to_owned(),
-        count => format!("{count} issues"),
-    };
+    let found = counted(issues.len(), "issue");
     let advice = if has(Fault::Unsupported) {
         "read it with a newer version of vtex"
     } else {

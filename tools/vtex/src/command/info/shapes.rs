@@ -10,6 +10,7 @@ use vtex_format::{
 use vtex_truth::srgb;
 
 use super::hex;
+use crate::cli::counted;
 
 /// A shape's record and report as JSON.
 pub(super) fn shape_json(file: &VtexFile, index: usize, shape: &ShapeRecord) -> Value {
@@ -105,13 +106,10 @@ pub(super) fn shapes(out: &mut String, file: &VtexFile, shown: usize) -> std::fm
     let columns = ["shape", "layer", "segments", "colour", "element"];
     let [shape, layer, segments, colour, element] = columns;
     let count = file.shapes.len();
-    let counted = match count {
-        1 => "1 shape".to_owned(),
-        _ => format!("{count} shapes"),
-    };
     writeln!(
         out,
-        "\n{counted} in painter's order: {}\n{shape:>5} {layer:>7} {segments:>9}  {colour:9}  {element}",
+        "\n{} in painter's order: {}\n{shape:>5} {layer:>7} {segments:>9}  {colour:9}  {element}",
+        counted(count, "shape"),
         coverage_counts(file)
     )?;
     for (index, shape) in file.shapes.iter().enumerate().take(shown) {
