@@ -232,11 +232,9 @@ mod rows = "ROWS" {
     EVERY = u32::MAX;
     /// How many eighths of a column the samples of a row lie further right than those of the row
     /// above, within their columns: of all orders of eight even steps, turned by any number of eighths,
-    /// the one with the least error over half planes and strips of all directions, together with
-    /// `ORDER` (docs/decisions/0016).
+    /// the one with the least error over half planes and strips of all directions, together with the
+    /// order of columns in a row (docs/decisions/0016).
     SHIFT = 3;
-    /// The columns that the samples of a row lie in, from the highest: four bits each, from the lowest.
-    ORDER = 0x1302;
 }
 
 /// [`vtex_format::MaskKind`] as stored.

@@ -15,7 +15,7 @@ fn key(features: u32) -> SpecKey {
 /// Numbers that are no integers; tests of parity hold them against Rust's.
 const FLOATS: [&str; 7] = [
     "VTEX_ROWS_LEAST",
-    "VTEX_ROWS_MOST",
+    "VTEX_LOOKUP_MOST",
     "VTEX_ROWS_ROW",
     "VTEX_ROWS_COLUMN",
     "VTEX_PICTURE_FAR",

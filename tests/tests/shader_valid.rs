@@ -79,7 +79,7 @@ const BOUNDS: [&str; 7] = [
     "i < VTEX_CMD_LIMIT; i += 1u",
     "i < VTEX_ROWS_SAMPLES; i += 1u",
     "i <= VTEX_ROWS_SAMPLES; i += 1u",
-    "row < end; row += 1",
+    "row < rows_end; row += 1",
     "i < VTEX_IMAGE_TAPS * VTEX_IMAGE_PLACES; i += 1u",
     "i < VTEX_GRADIENT_SEARCH_STEPS; i += 1u",
 ];

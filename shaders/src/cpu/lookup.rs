@@ -1,12 +1,17 @@
 //! Twin of `vtex/lookup.wgsl`: a lookup's place and filter region.
 
 use super::Sampler;
+use super::math::clamp;
+
+/// Cells. Fourth powers of the axes in texels are still finite, and no canvas is nearly as large.
+const MOST: f32 = 1e6;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lookup {
     /// After texture matrix and address mode.
     pub(super) uv: [f32; 2],
-    /// Two axes of the filter region, full extents in cells; zeros are a point.
+    /// Two axes of the filter region, full extents in cells; zeros are a point. No more than
+    /// [`MOST`] each.
     pub(super) axes: [f32; 4],
 }
 
@@ -16,7 +21,8 @@ impl Lookup {
         let [x, y] = sampler.settings.scale;
         Self {
             uv,
-            axes: [x * axes[0], y * axes[1], x * axes[2], y * axes[3]],
+            axes: [x * axes[0], y * axes[1], x * axes[2], y * axes[3]]
+                .map(|axis| clamp(axis, -MOST, MOST)),
         }
     }
 }

@@ -4,8 +4,11 @@ use super::image::{Region, filtered, weight};
 use super::mapping::wraps;
 use super::picture::picture;
 use super::{Lookup, Sampler};
+use crate::layout::filter;
 
-/// Cells up to half a texel of mip 0, the raster chain from one texel on, a fade between.
+/// Cells, then the raster chain, a fade of one octave between: in footprint mode from one texel of mip 0
+/// to two, where the chain's bilinear interpolation blurs no more than the footprint does; in other
+/// modes, whose lookups in cells have hard edges, from half a texel to one.
 pub(super) fn minify(sampler: &Sampler<'_>, lookup: &Lookup) -> [f32; 4] {
     let s = &sampler.settings;
     let [ax, ay, bx, by] = lookup.axes;
@@ -17,7 +20,12 @@ pub(super) fn minify(sampler: &Sampler<'_>, lookup: &Lookup) -> [f32; 4] {
         return picture(sampler, lookup, &mut ());
     }
     let region = Region::new(lookup.axes, s.mip_texels_per_cell);
-    let fade = weight(region.lod + 1.0);
+    let sooner = if s.filter == filter::FOOTPRINT {
+        0.0
+    } else {
+        1.0
+    };
+    let fade = weight(region.lod + sooner);
     let mut value = [0.0; 4];
     if fade < 1.0 {
         let cells = picture(sampler, lookup, &mut ());

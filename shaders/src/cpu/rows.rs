@@ -13,11 +13,9 @@ use crate::layout::rows::{COLUMNS, EVERY, ROWS, SAMPLES, SHIFT};
 
 /// A row and a column are no smaller, in cells.
 const LEAST: f32 = 1e-12;
-/// No footprint is larger, in cells.
-const MOST: f32 = 1e12;
 /// A number for each sample of a row.
 type Row = [f32; COLUMNS as usize];
-/// The samples of a row, and the columns that they lie in: `layout::rows::ORDER`.
+/// The samples of a row, and the columns that they lie in (docs/decisions/0016).
 const ROW: Row = [0.0, 1.0, 2.0, 3.0];
 const COLUMN: Row = [2.0, 0.0, 3.0, 1.0];
 /// Samples of odd rows, of rows with bit 1, and of rows with bit 2.
@@ -66,7 +64,7 @@ impl Phase {
             [(p[0], ax.abs() + bx.abs()), (p[1], ay.abs() + by.abs())].map(|(p, extent)| {
                 // Divided by the power of two below: exactly, and so alike everywhere. From one pixel to
                 // the next it grows by 1 to 2 at most.
-                let exponent = clamp(extent, LEAST, MOST).to_bits() & 0x7f80_0000;
+                let exponent = extent.max(LEAST).to_bits() & 0x7f80_0000;
                 p * f32::from_bits(0x7f00_0000 - exponent)
             });
         let fract = |t: f32| t - t.floor();

@@ -87,7 +87,6 @@ const VTEX_ROWS_COLUMNS: u32 = 4u;
 const VTEX_ROWS_SAMPLES: u32 = 32u;
 const VTEX_ROWS_EVERY: u32 = 0xffffffffu;
 const VTEX_ROWS_SHIFT: u32 = 3u;
-const VTEX_ROWS_ORDER: u32 = 0x1302u;
 
 const VTEX_MASK_LUMINANCE: u32 = 0u;
 const VTEX_MASK_ALPHA: u32 = 1u;

@@ -48,9 +48,7 @@ const VTEX_SAMPLES_EVERY: u32 = VTEX_ROWS_EVERY;
 
 // A row and a column are no smaller, in cells.
 const VTEX_ROWS_LEAST: f32 = 1e-12;
-// No footprint is larger, in cells.
-const VTEX_ROWS_MOST: f32 = 1e12;
-// The samples of a row, and the columns that they lie in: `VTEX_ROWS_ORDER`.
+// The samples of a row, and the columns that they lie in (docs/decisions/0016).
 const VTEX_ROWS_ROW: vec4f = vec4f(0.0, 1.0, 2.0, 3.0);
 const VTEX_ROWS_COLUMN: vec4f = vec4f(2.0, 0.0, 3.0, 1.0);
 
@@ -72,7 +70,7 @@ struct VtexRowsPhase {
 
 // `p` is the lookup's place in cells.
 fn vtex_rows_phase(p: vec2f, axes: vec4f) -> VtexRowsPhase {
-    let extent = clamp(abs(axes.xy) + abs(axes.zw), vec2f(VTEX_ROWS_LEAST), vec2f(VTEX_ROWS_MOST));
+    let extent = max(abs(axes.xy) + abs(axes.zw), vec2f(VTEX_ROWS_LEAST));
     // Divided by the power of two below: exactly, and so alike everywhere. From one pixel to the next
     // it grows by 1 to 2 at most.
     let exponent = bitcast<vec2u>(extent) & vec2u(0x7f800000u);
@@ -131,14 +129,19 @@ fn vtex_rows_across(rows: VtexRows) -> vec4f {
     return (0.25 * rows.dx) * VTEX_ROWS_ROW + rows.pitch * VTEX_ROWS_COLUMN;
 }
 
-// The samples of a row for which something holds, as four bits.
-fn vtex_rows_bits(holds: vec4<bool>) -> u32 {
-    let bits = select(vec4u(0u), vec4u(1u, 2u, 4u, 8u), holds);
-    return bits.x | bits.y | bits.z | bits.w;
+// The bit of each sample of a row for which something holds. As integers, since naga reads no vectors
+// of truths from SPIR-V that are joined.
+fn vtex_rows_marks(holds: vec4<bool>) -> vec4u {
+    return select(vec4u(0u), vec4u(1u, 2u, 4u, 8u), holds);
+}
+
+// The samples of a row that are marked, as four bits.
+fn vtex_rows_bits(marks: vec4u) -> u32 {
+    return marks.x | marks.y | marks.z | marks.w;
 }
 
 // The first samples, so many.
-fn vtex_rows_first(count: i32) -> u32 {
+fn vtex_rows_first_of(count: i32) -> u32 {
     // In two shifts, as one of 32 is none.
     let half = bitcast<u32>(count >> 1u);
     return ~((VTEX_ROWS_EVERY << half) << (bitcast<u32>(count) - half));
@@ -150,20 +153,20 @@ fn vtex_rows_within(rows: VtexRows, low: vec2f, high: vec2f) -> u32 {
     let end = vtex_rows_above(rows, high.y);
     let across = vtex_rows_across(rows);
     var mask = 0u;
-    for (var row = first >> 2u; 4 * row < end; row += 1) {
+    let rows_end = (end + 3) >> 2u;
+    for (var row = first >> 2u; row < rows_end; row += 1) {
         let x = vtex_rows_start(rows, row) + across;
-        let bits = vtex_rows_bits((x >= vec4f(low.x)) & (x < vec4f(high.x)));
+        let right = vtex_rows_marks(x >= vec4f(low.x));
+        let bits = vtex_rows_bits(right & vtex_rows_marks(x < vec4f(high.x)));
         mask |= bits << (4u * bitcast<u32>(row));
     }
-    return mask & vtex_rows_first(end) & ~vtex_rows_first(first);
+    return mask & vtex_rows_first_of(end) & ~vtex_rows_first_of(first);
 }
 
 // Where a sample lies.
 fn vtex_rows_place(rows: VtexRows, index: u32) -> vec2f {
-    let place = index & 3u;
-    let column = (VTEX_ROWS_ORDER >> (4u * place)) & 3u;
-    let across = vec2f(0.25 * rows.dx, rows.pitch) * vec2f(vec2u(place, column));
-    let x = vtex_rows_start(rows, bitcast<i32>(index >> 2u)) + across.x + across.y;
+    let across = vtex_rows_across(rows)[index & 3u];
+    let x = vtex_rows_start(rows, bitcast<i32>(index >> 2u)) + across;
     return vec2f(x, rows.y + f32(bitcast<i32>(index)) * rows.dy);
 }
 
@@ -208,18 +211,20 @@ fn vtex_rows_right(samples: VtexSamples, command: vec4u) -> u32 {
     let bend = vtex_segment_cross(to_c, to_b);
     let across = vtex_rows_across(rows);
     let below = rows.dy * VTEX_ROWS_ROW;
-    for (var row = first >> 2u; 4 * row < select(0, end, crosses); row += 1) {
+    let rows_end = select(0, (end + 3) >> 2u, crosses);
+    for (var row = first >> 2u; row < rows_end; row += 1) {
         // From the upper end to the samples.
         let x = (vtex_rows_start(rows, row) - a.x) + across;
         let y = (rows.y - a.y + f32(4 * row) * rows.dy) + below;
         let chord = x * to_b.y - y * to_b.x;
         let before = x * to_c.y - y * to_c.x;
         let inner = -4.0 * before * (bend - chord + before);
-        let between = (chord * bend > vec4f(0.0)) & (chord * chord < inner);
-        let right = vtex_rows_bits((chord >= vec4f(0.0)) != between);
-        mask |= right << (4u * bitcast<u32>(row));
+        let near = vtex_rows_marks(chord * bend > vec4f(0.0));
+        let between = near & vtex_rows_marks(chord * chord < inner);
+        let right = vtex_rows_marks(chord >= vec4f(0.0)) ^ between;
+        mask |= vtex_rows_bits(right) << (4u * bitcast<u32>(row));
     }
-    return mask & vtex_rows_first(end) & ~vtex_rows_first(first);
+    return mask & vtex_rows_first_of(end) & ~vtex_rows_first_of(first);
 }
 
 // Adds what a segment does to the windings.

@@ -373,7 +373,7 @@ fn info_preview_extract_and_compare_tell_what_is_there() {
     let text = bench.run(&["info", "square.vtex"]);
     let text = String::from_utf8_lossy(&text.stdout);
     assert!(
-        text.contains("1 shapes in painter's order") && text.contains("OUTL"),
+        text.contains("1 shape in painter's order") && text.contains("OUTL"),
         "{text}"
     );
 

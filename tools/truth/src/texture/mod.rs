@@ -33,8 +33,8 @@ pub fn canvas_options(filter: FilterMode) -> PackOptions {
 }
 
 /// Least width and height of a lookup's footprint in uv from which the lookup is a mean over it. In
-/// footprint mode all are; in the other modes those that mips answer. Mips fade in between half a
-/// texel of mip 0 and one texel.
+/// footprint mode all are; in the other modes those that mips answer. There mips fade in between
+/// half a texel of mip 0 and one texel.
 pub fn region_uv(file: &VtexFile, filter: FilterMode) -> [f64; 2] {
     /// Where mips have more than half of the weight.
     const LEAST_TEXELS: f64 = 0.75;

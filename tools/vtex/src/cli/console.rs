@@ -30,6 +30,12 @@ pub(crate) enum Verbosity {
     Verbose,
 }
 
+/// A number of things, with the plural of most nouns.
+pub(crate) fn counted(count: usize, noun: &str) -> String {
+    let ending = if count == 1 { "" } else { "s" };
+    format!("{count} {noun}{ending}")
+}
+
 /// Prints what a command has to say.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Console {

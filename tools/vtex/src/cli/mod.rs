@@ -6,7 +6,7 @@ mod failure;
 mod panics;
 mod values;
 
-pub(crate) use console::{Console, Format, Verbosity};
+pub(crate) use console::{Console, Format, Verbosity, counted};
 pub(crate) use failure::{ExitCode, Failure, Outcome};
 pub(crate) use panics::{keep_places, panicked};
 pub(crate) use values::Size;

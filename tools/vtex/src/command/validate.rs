@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 use vtex_format::{Fault, Issue, Limits, validate};
 
 use crate::cli::args::Validate;
-use crate::cli::{Console, ExitCode, Failure, Format, Outcome};
+use crate::cli::{Console, ExitCode, Failure, Format, Outcome, counted};
 use crate::files::{input, lossy};
 
 /// Runs `vtex validate`.
@@ -57,13 +57,18 @@ fn code(issues: &[Issue]) -> ExitCode {
 
 /// What to do about a file that has issues.
 fn advice(issues: &[Issue]) -> String {
-    let count = issues.len();
-    let outdated = issues.iter().any(|issue| issue.fault == Fault::Outdated);
-    if outdated {
-        "of an earlier version; bake it again: `vtex bake drawing.svg -o drawing.vtex`".to_owned()
-    } else {
-        format!("{count} issues found; bake or download the file again")
+    let has = |fault| issues.iter().any(|issue| issue.fault == fault);
+    if has(Fault::Outdated) {
+        return "of an earlier version; bake it again: `vtex bake drawing.svg -o drawing.vtex`"
+            .to_owned();
     }
+    let found = counted(issues.len(), "issue");
+    let advice = if has(Fault::Unsupported) {
+        "read it with a newer version of vtex"
+    } else {
+        "bake or download the file again"
+    };
+    format!("{found} found; {advice}")
 }
 
 fn issues_json(issues: &[Issue]) -> Value {

@@ -59,12 +59,12 @@ struct Entry {
 
 /// Reads a whole file.
 pub(crate) fn sections(file: &[u8]) -> Result<Sections> {
-    let mut rest = Bytes(file);
-    let header = rest.take(HEADER_BYTES).context("no header")?;
+    let mut rest = file;
+    let header = rest.split_off(..HEADER_BYTES).context("no header")?;
     ensure!(header.starts_with(&MAGIC), "no .vtex file");
     let version = u16::from_le_bytes([header[8], header[9]]);
     ensure!(version == MAJOR_VERSION, "a file of version {version}");
-    let count = Bytes(&header[12..]).number()?;
+    let count = number(&mut &header[12..])?;
     let table = (0..count).map(|_| entry(&mut rest));
     let table = table.collect::<Result<Vec<_>>>()?;
     let mut sections = Sections::new();
@@ -73,7 +73,9 @@ pub(crate) fn sections(file: &[u8]) -> Result<Sections> {
     for (index, entry) in table.iter().enumerate() {
         if let Some((codec, stored_bytes)) = entry.bundle {
             ensure!(content.is_empty(), "a bundle is longer than its sections");
-            let stored = rest.take(stored_bytes).context("a bundle is cut off")?;
+            let stored = rest
+                .split_off(..stored_bytes)
+                .context("a bundle is cut off")?;
             let sharing = table[index + 1..].iter();
             let sharing = sharing.take_while(|entry| entry.bundle.is_none());
             let raw_bytes = sharing.map(|entry| entry.raw_bytes).sum::<usize>() + entry.raw_bytes;
@@ -97,19 +99,19 @@ fn add(sections: &mut Sections, tag: &str, critical: bool, raw: &[u8]) {
     sections.insert(name, Content { critical, raw });
 }
 
-fn entry(bytes: &mut Bytes<'_>) -> Result<Entry> {
+fn entry(bytes: &mut &[u8]) -> Result<Entry> {
     const CUT_OFF: &str = "the table is cut off";
-    let section = bytes.take(SECTION_BYTES).context(CUT_OFF)?;
+    let section = bytes.split_off(..SECTION_BYTES).context(CUT_OFF)?;
     let flags = section[4];
     let mut bundle = None;
     if flags & FLAG_SHARED == 0 {
-        let head = bytes.take(BUNDLE_BYTES).context(CUT_OFF)?;
-        bundle = Some((head[0], Bytes(&head[1..]).number()?));
+        let head = bytes.split_off(..BUNDLE_BYTES).context(CUT_OFF)?;
+        bundle = Some((head[0], number(&mut &head[1..])?));
     }
     Ok(Entry {
         tag: String::from_utf8_lossy(&section[..4]).into_owned(),
         flags,
-        raw_bytes: Bytes(&section[5..]).number()?,
+        raw_bytes: number(&mut &section[5..])?,
         bundle,
     })
 }
@@ -124,21 +126,10 @@ fn unpack(codec: u8, stored: &[u8], raw_bytes: usize) -> Result<Vec<u8>> {
     Ok(raw)
 }
 
-/// Takes bytes from the front.
-struct Bytes<'a>(&'a [u8]);
-
-impl<'a> Bytes<'a> {
-    fn take(&mut self, count: usize) -> Option<&'a [u8]> {
-        let (taken, rest) = self.0.split_at_checked(count)?;
-        self.0 = rest;
-        Some(taken)
-    }
-
-    /// A little-endian number of four bytes.
-    fn number(&mut self) -> Result<usize> {
-        let bytes = self.take(4).context("a number is cut off")?;
-        Ok(usize::try_from(u32::from_le_bytes(bytes.try_into()?))?)
-    }
+/// Takes a little-endian number of four bytes from the front.
+fn number(bytes: &mut &[u8]) -> Result<usize> {
+    let number = bytes.split_off(..4).context("a number is cut off")?;
+    Ok(usize::try_from(u32::from_le_bytes(number.try_into()?))?)
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ use vtex_format::{
 use vtex_truth::srgb;
 
 use super::hex;
+use crate::cli::counted;
 
 /// A shape's record and report as JSON.
 pub(super) fn shape_json(file: &VtexFile, index: usize, shape: &ShapeRecord) -> Value {
@@ -107,7 +108,8 @@ pub(super) fn shapes(out: &mut String, file: &VtexFile, shown: usize) -> std::fm
     let count = file.shapes.len();
     writeln!(
         out,
-        "\n{count} shapes in painter's order: {}\n{shape:>5} {layer:>7} {segments:>9}  {colour:9}  {element}",
+        "\n{} in painter's order: {}\n{shape:>5} {layer:>7} {segments:>9}  {colour:9}  {element}",
+        counted(count, "shape"),
         coverage_counts(file)
     )?;
     for (index, shape) in file.shapes.iter().enumerate().take(shown) {

@@ -5,6 +5,7 @@ pub(super) const OTHERWISE: &[(&str, &str, &str)] = &[
     ("edge.rs", "is_branch", "vtex_groups_is_branch"),
     ("edge.rs", "within", "vtex_msdf_covered"),
     ("image.rs", "new", "vtex_image_region"),
+    ("rows.rs", "new", "vtex_rows_phase"),
     ("rows.rs", "new", "vtex_samples_of_rows"),
     ("sample.rs", "sample", "vtex_sample_at"),
     ("settings.rs", "read", "vtex_texture"),
@@ -81,5 +82,6 @@ pub(super) const ONLY_WGSL: &[(&str, &str)] = &[
         "the twin takes the first two of all words",
     ),
     ("vtex_rows_count", "one expression of Rows::mean"),
+    ("vtex_rows_marks", "the twin has truths instead"),
     ("vtex_samples_in_cell", "picture.rs makes the struct"),
 ];
