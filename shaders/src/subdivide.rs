@@ -26,10 +26,9 @@ use vtex_format::{CellWord, VtexFile};
 use crate::layout::{FilterMode, cell};
 use depth::Model;
 use grid::{Grid, Picture};
-use list::List;
 use lists::Lists;
 use outline::Region;
-use tree::{Tree, tree};
+use tree::{Divider, Tree};
 
 /// The cells that evaluators read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -72,7 +71,7 @@ fn divide(file: &VtexFile, filter: FilterMode, model: &Model) -> Option<Subdivis
     for &word in &file.cells {
         *uses.entry(word).or_default() += 1;
     }
-    let whole = whole_cell(file);
+    let mut divider = Divider::new(whole_cell(file), filter, model);
     let mut lists = Lists::default();
     let mut picture = Picture {
         size: file.meta.grid.size_cells.map(|count| count as usize),
@@ -84,9 +83,9 @@ fn divide(file: &VtexFile, filter: FilterMode, model: &Model) -> Option<Subdivis
         let index = known.entry(word).or_insert_with(|| {
             let tree = match CellWord::decode(word) {
                 Some(CellWord::List { offset_words }) => {
-                    let list = list_of(file, offset_words);
+                    let words = file.entries.get(offset_words as usize..).unwrap_or(&[]);
                     let uses = uses.get(&word).copied().unwrap_or(1);
-                    tree(list, &whole, filter, model, uses, &mut lists)
+                    divider.tree(words, &file.curves, uses, &mut lists)
                 }
                 Some(CellWord::Paint { paint }) => {
                     Tree::Leaf(cell::SOLID << cell::TAG_SHIFT | paint)
@@ -137,11 +136,6 @@ fn dilated(fine: &Region, whole: &Region, filter: FilterMode) -> Region {
     } else {
         *fine
     }
-}
-
-fn list_of(file: &VtexFile, offset_words: u32) -> List {
-    let words = file.entries.get(offset_words as usize..).unwrap_or(&[]);
-    List::decode(words, &file.curves)
 }
 
 #[cfg(test)]

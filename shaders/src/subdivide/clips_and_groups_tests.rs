@@ -2,9 +2,8 @@
 
 use vtex_format::{CurveHeader, Entry, EntryKind};
 
-use super::commands::Order;
-use super::list::List;
 use super::outline::Region;
+use super::tests::Sample;
 use crate::layout::cmd;
 
 /// The record of all that lies left of x = 2000, and one of all that lies above y = 2000.
@@ -25,7 +24,7 @@ fn records() -> Vec<u32> {
 const LEFT: u32 = 0;
 const ABOVE: u32 = 4;
 
-fn list(entries: &[(EntryKind, bool, u32, u32)]) -> List {
+fn list(entries: &[(EntryKind, bool, u32, u32)]) -> Sample {
     let count = entries.len();
     let words = entries
         .iter()
@@ -40,11 +39,11 @@ fn list(entries: &[(EntryKind, bool, u32, u32)]) -> List {
             };
             entry.encode().expect("sound")
         });
-    List::decode(&words.collect::<Vec<_>>(), &records())
+    Sample::decode(&words.collect::<Vec<_>>(), &records())
 }
 
-fn count(list: &List) -> usize {
-    list.commands(Order::FrontToBack).len()
+fn count(list: &Sample) -> usize {
+    list.commands().len()
 }
 
 /// The part of the cell around a place.
@@ -56,8 +55,8 @@ fn around(x: f64, y: f64) -> Region {
 }
 
 /// Tags of the commands without what a list's order gives them.
-fn tags(list: &List) -> Vec<u32> {
-    let commands = list.commands(Order::FrontToBack);
+fn tags(list: &Sample) -> Vec<u32> {
+    let commands = list.commands();
     let kept = cmd::CONTROL_BIT | cmd::INDEX_MASK | cmd::OPAQUE_BIT;
     commands.iter().map(|command| command[3] & kept).collect()
 }

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use super::commands::Order;
-use super::list::List;
+use super::commands::{self, Order};
+use super::list::{Arena, List};
+use super::outline::Span;
 use crate::layout::cell;
 
 /// What a cell shows.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) enum Shown {
     /// Nothing, or one paint: the cell's word.
     Paint(u32),
@@ -15,31 +16,33 @@ pub(super) enum Shown {
     List {
         /// Of the cell's word.
         tag: u32,
-        commands: Vec<[u32; 4]>,
+        /// Of the commands of the cell of the file.
+        commands: Span,
         /// Of the commands.
         hash: u64,
     },
 }
 
 impl Shown {
-    pub(super) fn of(list: &List) -> Self {
-        if list.is_empty() {
+    /// `written` takes the commands.
+    pub(super) fn of(arena: &Arena, list: &List, written: &mut Vec<[u32; 4]>) -> Self {
+        if list.nodes.is_empty() {
             return Self::Paint(cell::EMPTY);
         }
-        if let Some(paint) = list.solid() {
+        if let Some(paint) = arena.solid(list.nodes) {
             return Self::Paint(cell::SOLID << cell::TAG_SHIFT | paint);
         }
-        let (tag, order) = if list.has_groups() {
+        let (tag, order) = if arena.has_groups(list.nodes) {
             (cell::GROUPS, Order::BackToFront)
         } else {
             (cell::LIST, Order::FrontToBack)
         };
-        let commands = list.commands(order);
-        let hash = hash(commands.as_flattened());
+        let first = written.len();
+        commands::write(arena, list.nodes, order, written);
         Self::List {
             tag,
-            commands,
-            hash,
+            commands: Span::from(first, written),
+            hash: hash(written[first..].as_flattened()),
         }
     }
 }
@@ -53,15 +56,18 @@ pub(super) struct Lists {
 }
 
 impl Lists {
-    /// The word of a cell.
-    pub(super) fn word(&mut self, shown: &Shown) -> u32 {
+    /// The word of a cell, whose commands are among those that were `written`.
+    pub(super) fn word(&mut self, shown: Shown, written: &[[u32; 4]]) -> u32 {
         match shown {
-            Shown::Paint(word) => *word,
+            Shown::Paint(word) => word,
             Shown::List {
                 tag,
                 commands,
                 hash,
-            } => tag << cell::TAG_SHIFT | self.place(commands, *hash).min(cell::PAYLOAD_MASK),
+            } => {
+                let place = self.place(&written[commands.range()], hash);
+                tag << cell::TAG_SHIFT | place.min(cell::PAYLOAD_MASK)
+            }
         }
     }
 

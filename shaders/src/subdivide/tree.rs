@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::depth::{Model, Sums, count};
+use super::depth::{self, Model, Sums};
 use super::dilated;
-use super::list::List;
+use super::list::{Arena, List};
 use super::lists::{Lists, Shown};
 use super::outline::Region;
 use crate::layout::{FilterMode, has_list};
@@ -67,6 +67,7 @@ impl Tree {
 }
 
 /// A part of a cell on the way to a tree.
+#[derive(Clone, Copy, Debug)]
 struct Part {
     list: List,
     shown: Shown,
@@ -75,107 +76,156 @@ struct Part {
     quarters: Option<usize>,
 }
 
-impl Part {
-    fn new(list: List, region: Region) -> Self {
+/// Divides one cell of the file after another.
+#[derive(Debug)]
+pub(super) struct Divider<'a> {
+    /// What all of them look like.
+    whole: Region,
+    filter: FilterMode,
+    model: &'a Model,
+    /// What the present cell's parts show.
+    arena: Arena,
+    commands: Vec<[u32; 4]>,
+    parts: Vec<Part>,
+}
+
+impl<'a> Divider<'a> {
+    /// `whole` is a cell of the file.
+    pub(super) fn new(whole: Region, filter: FilterMode, model: &'a Model) -> Self {
         Self {
-            shown: Shown::of(&list),
+            whole,
+            filter,
+            model,
+            arena: Arena::default(),
+            commands: Vec::new(),
+            parts: Vec::new(),
+        }
+    }
+
+    /// Divides a list that `uses` cells show. It starts with the first of `words`.
+    pub(super) fn tree(
+        &mut self,
+        words: &[u32],
+        curves: &[u32],
+        uses: usize,
+        lists: &mut Lists,
+    ) -> Tree {
+        self.arena.clear();
+        self.commands.clear();
+        self.parts.clear();
+        let list = self.arena.decode(words, curves);
+        self.push(list, self.whole);
+        self.divide(uses);
+        self.finish(0, lists)
+    }
+
+    fn push(&mut self, list: List, region: Region) {
+        self.parts.push(Part {
             list,
+            shown: Shown::of(&self.arena, &list, &mut self.commands),
             region,
             quarters: None,
-        }
+        });
     }
-}
 
-/// Divides a list that `uses` cells show.
-pub(super) fn tree(
-    list: List,
-    whole: &Region,
-    filter: FilterMode,
-    model: &Model,
-    uses: usize,
-    lists: &mut Lists,
-) -> Tree {
-    let mut parts = vec![Part::new(list, *whole)];
-    divide(&mut parts, whole, filter, model, uses);
-    let merges = |word: u32| filter != FilterMode::Footprint || !has_list(word);
-    finish(&parts, 0, &merges, lists)
-}
-
-/// Divides the one of `parts`, level by level, and takes back what is not worth it.
-fn divide(parts: &mut Vec<Part>, whole: &Region, filter: FilterMode, model: &Model, uses: usize) {
-    // Of what has no outline the same list serves all parts.
-    let mut settled = Sums::default();
-    let mut kept = BTreeSet::new();
-    let mut front = vec![0];
-    let mut share = 1.0;
-    let first = settled.with(parts, &front, share, &mut BTreeSet::new());
-    let mut search = model.search(first, uses);
-    let mut levels = Vec::new();
-    for depth in 1..=model.max_depth {
-        let length = parts.len();
-        let (outlined, plain): (Vec<usize>, Vec<usize>) =
-            front.iter().partition(|&&at| parts[at].list.has_outlines());
-        settled = settled.with(parts, &plain, share, &mut kept);
-        if outlined.is_empty() {
-            break;
-        }
-        share *= 0.25;
-        front.clear();
-        for &at in &outlined {
-            parts[at].quarters = Some(parts.len());
-            for region in parts[at].region.quarters() {
-                let list = parts[at].list.within(&dilated(&region, whole, filter));
-                front.push(parts.len());
-                parts.push(Part::new(list, region));
+    /// Divides the one part, level by level, and takes back what is not worth it.
+    fn divide(&mut self, uses: usize) {
+        // Of what has no outline the same list serves all parts.
+        let mut settled = Sums::default();
+        let mut kept = BTreeSet::new();
+        let mut front = vec![0];
+        let mut share = 1.0;
+        let mut search = self
+            .model
+            .search(settled.with(&self.parts, &front, share, &kept), uses);
+        let mut levels = Vec::new();
+        for depth in 1..=self.model.max_depth {
+            let length = self.parts.len();
+            let has_outlines = |at: &usize| self.arena.has_outlines(self.parts[*at].list.nodes);
+            let (outlined, plain): (Vec<usize>, Vec<usize>) =
+                front.iter().partition(|at| has_outlines(at));
+            settled = settled.with(&self.parts, &plain, share, &kept);
+            kept.extend(hashes(&self.parts, &plain));
+            if outlined.is_empty() {
+                break;
+            }
+            share *= 0.25;
+            for &at in &outlined {
+                self.quarter(at);
+            }
+            levels.push((length, outlined));
+            front = (length..self.parts.len()).collect();
+            let sums = settled.with(&self.parts, &front, share, &kept);
+            if !search.visit(depth, sums) {
+                break;
             }
         }
-        levels.push((length, outlined));
-        let sums = settled.with(parts, &front, share, &mut kept.clone());
-        if !search.visit(depth, sums) {
-            break;
+        if let Some((length, outlined)) = levels.get(search.best_depth as usize) {
+            self.parts.truncate(*length);
+            for &at in outlined {
+                self.parts[at].quarters = None;
+            }
         }
     }
-    if let Some((length, outlined)) = levels.get(search.best_depth as usize) {
-        parts.truncate(*length);
-        for &at in outlined {
-            parts[at].quarters = None;
+
+    /// Appends the quarters of a part.
+    fn quarter(&mut self, at: usize) {
+        self.parts[at].quarters = Some(self.parts.len());
+        let Part { list, region, .. } = self.parts[at];
+        for regions in region.quarters() {
+            let dilated = regions.map(|region| dilated(&region, &self.whole, self.filter));
+            self.arena.trace(&list, dilated[0].y);
+            for (region, Region { x, .. }) in regions.iter().zip(dilated) {
+                let part = self.arena.within(&list, x);
+                self.push(part, *region);
+            }
+        }
+    }
+
+    /// The tree of a part. Quarters that show the same become one, but in footprint mode no list
+    /// does: it serves what lies around it as far as the side of its own cell says.
+    fn finish(&self, at: usize, lists: &mut Lists) -> Tree {
+        let part = &self.parts[at];
+        let Some(first) = part.quarters else {
+            return Tree::Leaf(lists.word(part.shown, &self.commands));
+        };
+        let quarters = [0, 1, 2, 3].map(|quarter| self.finish(first + quarter, lists));
+        let merges = |word: u32| self.filter != FilterMode::Footprint || !has_list(word);
+        match quarters[0].word() {
+            Some(word) if merges(word) && quarters.iter().all(|other| *other == quarters[0]) => {
+                Tree::Leaf(word)
+            }
+            _ => Tree::Split(Box::new(quarters)),
         }
     }
 }
 
 impl Sums {
-    /// With the lists of some parts; `seen` has the hashes of those that are stored already.
-    fn with(
-        mut self,
-        parts: &[Part],
-        some: &[usize],
-        share: f64,
-        seen: &mut BTreeSet<u64>,
-    ) -> Self {
+    /// With the lists of some parts, of which those in `kept` are stored already.
+    fn with(mut self, parts: &[Part], some: &[usize], share: f64, kept: &BTreeSet<u64>) -> Self {
+        let mut new = Vec::new();
         for &at in some {
-            if let Shown::List { commands, hash, .. } = &parts[at].shown {
-                self.walked += share * count(commands.len());
-                if seen.insert(*hash) {
-                    self.stored += count(commands.len());
-                }
+            if let Shown::List { commands, hash, .. } = parts[at].shown {
+                let count = commands.range().len();
+                self.walked += share * depth::count(count);
+                new.push((hash, count));
             }
         }
+        // Equal lists are stored once.
+        new.sort_unstable();
+        new.dedup_by_key(|(hash, _)| *hash);
+        new.retain(|(hash, _)| !kept.contains(hash));
+        self.stored += new
+            .iter()
+            .map(|&(_, count)| depth::count(count))
+            .sum::<f64>();
         self
     }
 }
 
-/// The tree of a part. Quarters that show the same become one where `merges` says so of their word:
-/// in footprint mode a list serves what lies around it as far as the side of its own cell says.
-fn finish(parts: &[Part], at: usize, merges: &impl Fn(u32) -> bool, lists: &mut Lists) -> Tree {
-    let part = &parts[at];
-    let Some(first) = part.quarters else {
-        return Tree::Leaf(lists.word(&part.shown));
-    };
-    let quarters = [0, 1, 2, 3].map(|quarter| finish(parts, first + quarter, merges, lists));
-    match quarters[0].word() {
-        Some(word) if merges(word) && quarters.iter().all(|quarter| *quarter == quarters[0]) => {
-            Tree::Leaf(word)
-        }
-        _ => Tree::Split(Box::new(quarters)),
-    }
+fn hashes(parts: &[Part], some: &[usize]) -> impl Iterator<Item = u64> {
+    some.iter().filter_map(|&at| match parts[at].shown {
+        Shown::List { hash, .. } => Some(hash),
+        Shown::Paint(_) => None,
+    })
 }
