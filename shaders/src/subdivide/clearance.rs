@@ -6,9 +6,11 @@ use super::grid::{Grid, places};
 use crate::layout::{cell, has_list};
 
 /// Of a cell whose neighbours are not known to differ.
-const GREATEST: u32 = cell::CLEARANCE_MASK;
+#[expect(clippy::cast_possible_truncation, reason = "eleven bits")]
+const GREATEST: u16 = cell::CLEARANCE_MASK as u16;
 /// Parts of a side.
-const PARTS: u32 = cell::CLEARANCE_PARTS;
+#[expect(clippy::cast_possible_truncation, reason = "far less")]
+const PARTS: u16 = cell::CLEARANCE_PARTS as u16;
 /// Stands for what shows no single paint: a list's tag, with a place that no list has.
 const MIXED: u32 = u32::MAX;
 
@@ -29,7 +31,7 @@ pub(super) fn write(grid: &mut Grid) {
     for (index, (word, clearance)) in grid.words.iter_mut().zip(clearances).enumerate() {
         let divided = index < base && Block::of(*word).is_some();
         if !has_list(*word) && !divided {
-            *word |= clearance << cell::CLEARANCE_SHIFT;
+            *word |= u32::from(clearance) << cell::CLEARANCE_SHIFT;
         }
     }
 }
@@ -85,7 +87,7 @@ impl Grid {
 
 /// The clearances of a block's cells: what is known of a quarter of a file's cell around it counts. Of
 /// a block in several places the least counts.
-fn inside(grid: &Grid, base: [usize; 2], block: &Block, clearances: &mut [u32]) {
+fn inside(grid: &Grid, base: [usize; 2], block: &Block, clearances: &mut [u16]) {
     let pitch = block.pitch();
     let border = (pitch >> grid.side.max(0)).checked_shr(2).unwrap_or(0) << (-grid.side).max(0);
     let border = border.clamp(1, pitch);
@@ -93,14 +95,19 @@ fn inside(grid: &Grid, base: [usize; 2], block: &Block, clearances: &mut [u32]) 
     let words = around(grid, base, block.depth, border);
     let mut distances = alone(&words, wide);
     spread(&mut distances, wide, 1);
-    for [x, y] in places([pitch; 2]) {
-        let edge = |at: usize| (at + border).min(wide - 1 - border - at);
-        let known = edge(x).min(edge(y));
-        let distance = distances[(y + border) * wide + x + border];
-        let clearance = PARTS * distance.min(u32::try_from(known).unwrap_or(GREATEST));
-        let stored = &mut clearances[block.first + y * pitch + x];
-        *stored = (*stored).min(clearance);
+    let known = |at: usize| (at + border).min(wide - 1 - border - at);
+    let known: Vec<u16> = (0..pitch).map(|at| limited(known(at))).collect();
+    for (y, &rows) in known.iter().enumerate() {
+        let distances = &distances[(y + border) * wide + border..][..pitch];
+        let clearances = &mut clearances[block.first + y * pitch..][..pitch];
+        for ((stored, distance), &columns) in clearances.iter_mut().zip(distances).zip(&known) {
+            *stored = (*stored).min(PARTS * (*distance).min(columns).min(rows));
+        }
     }
+}
+
+fn limited(distance: usize) -> u16 {
+    u16::try_from(distance).unwrap_or(GREATEST).min(GREATEST)
 }
 
 /// The words of a base cell in squares of `2^depth`, and of so many around it.
@@ -117,14 +124,27 @@ fn around(grid: &Grid, base: [usize; 2], depth: u32, border: usize) -> Vec<u32> 
     let columns: Vec<(usize, usize)> = (0..wide).map(|x| place(0, x)).collect();
     let mut words = Vec::with_capacity(wide * wide);
     for (base_y, y) in (0..wide).map(|y| place(1, y)) {
-        let row = columns.iter();
-        words.extend(row.map(|&(base_x, x)| grid.word_in([base_x, base_y], depth, [x, y])));
+        for columns in columns.chunk_by(|one, other| one.0 == other.0) {
+            let base = [columns[0].0, base_y];
+            match grid.block_at(base) {
+                None => words.extend(columns.iter().map(|_| grid.base_word(base))),
+                Some(block) if block.depth == depth => {
+                    let row = &grid.words[block.first + y * pitch..][..pitch];
+                    words.extend(columns.iter().map(|&(_, x)| row[x]));
+                }
+                _ => words.extend(
+                    columns
+                        .iter()
+                        .map(|&(_, x)| grid.word_in(base, depth, [x, y])),
+                ),
+            }
+        }
     }
     words
 }
 
 /// The clearances of base cells.
-fn between(grid: &Grid, clearances: &mut [u32]) {
+fn between(grid: &Grid, clearances: &mut [u16]) {
     let [columns, rows] = grid.size;
     let base = &grid.words[..columns * rows];
     let mut distances = alone(base, columns);
@@ -139,7 +159,7 @@ fn between(grid: &Grid, clearances: &mut [u32]) {
 }
 
 /// How many parts of a side around a base cell show its word, where a neighbour does not as a whole.
-fn beside(grid: &Grid, [x, y]: [usize; 2], word: u32) -> u32 {
+fn beside(grid: &Grid, [x, y]: [usize; 2], word: u32) -> u16 {
     let near = |at: usize, count: usize| at.saturating_sub(1)..count.min(at + 2);
     let mut least = PARTS;
     for base_y in near(y, grid.size[1]) {
@@ -168,7 +188,7 @@ fn axis_strip(neighbour: usize, at: usize) -> Beside {
 }
 
 /// How many parts of a neighbour's side, from the common side or corner, show `word` alone.
-fn strip(grid: &Grid, base: [usize; 2], beside: [Beside; 2], word: u32) -> u32 {
+fn strip(grid: &Grid, base: [usize; 2], beside: [Beside; 2], word: u32) -> u16 {
     let Some(block) = grid.block_at(base) else {
         return if grid.base_word(base) == word {
             PARTS
@@ -177,81 +197,105 @@ fn strip(grid: &Grid, base: [usize; 2], beside: [Beside; 2], word: u32) -> u32 {
         };
     };
     let pitch = block.pitch();
-    let range = |beside: Beside, count: usize| -> Range<usize> {
-        match beside {
-            Beside::Before => pitch - count..pitch,
-            Beside::Same => 0..pitch,
-            Beside::Behind => 0..count,
-        }
+    // The first `count` rows or columns, and the last of these.
+    let range = |beside: Beside, count: usize| match beside {
+        Beside::Before => pitch - count..pitch,
+        Beside::Same => 0..pitch,
+        Beside::Behind => 0..count,
     };
-    let shows = |count: usize| {
-        range(beside[1], count).all(|y| {
+    let last = |beside: Beside, count: usize| match beside {
+        Beside::Before => pitch - count..pitch - count + 1,
+        Beside::Same => 0..0,
+        Beside::Behind => count - 1..count,
+    };
+    let shows = |mut rows: Range<usize>, columns: Range<usize>| {
+        rows.all(|y| {
             let row = &grid.words[block.first + y * pitch..][..pitch];
-            row[range(beside[0], count)]
-                .iter()
-                .all(|&other| other == word)
+            row[columns.clone()].iter().all(|&other| other == word)
         })
     };
-    let count = (1..=pitch).take_while(|&count| shows(count)).count();
-    (u32::try_from(count).unwrap_or(0) * PARTS) >> block.depth
+    let [x, y] = beside;
+    let count = (1..=pitch).take_while(|&count| {
+        shows(last(y, count), range(x, count)) && shows(range(y, count), last(x, count))
+    });
+    (limited(count.count()) * PARTS) >> block.depth
 }
 
 /// Lets distances grow by no more than `step` from a cell to the next. Rows have `pitch` cells.
-fn spread(distances: &mut [u32], pitch: usize, step: u32) {
-    let rows = distances.len() / pitch;
+fn spread(distances: &mut [u16], pitch: usize, step: u16) {
+    let mut rows: Vec<&mut [u16]> = distances.chunks_exact_mut(pitch).collect();
     // There and back: a distance is at most a step more than that of any neighbour.
-    for y in 0..rows {
-        for x in 0..pitch {
-            let left = x.checked_sub(1).map(|x| distances[y * pitch + x]);
-            let above = y
-                .checked_sub(1)
-                .map_or(GREATEST, |y| three(&distances[y * pitch..][..pitch], x));
-            shrink(&mut distances[y * pitch + x], left, above, step);
+    for y in 0..rows.len() {
+        if let [.., above, row] = &mut rows[..=y] {
+            lower(row, above, step);
         }
+        along(rows[y].iter_mut(), step);
     }
-    for y in (0..rows).rev() {
-        for x in (0..pitch).rev() {
-            let right = (x + 1 < pitch).then(|| distances[y * pitch + x + 1]);
-            let below = distances
-                .get((y + 1) * pitch..)
-                .filter(|rest| !rest.is_empty());
-            let below = below.map_or(GREATEST, |rest| three(&rest[..pitch], x));
-            shrink(&mut distances[y * pitch + x], right, below, step);
+    for y in (0..rows.len()).rev() {
+        if let [row, below, ..] = &mut rows[y..] {
+            lower(row, below, step);
         }
+        along(rows[y].iter_mut().rev(), step);
+    }
+}
+
+/// Lets no distance be more than a step beyond that of a cell before it.
+fn along<'a>(distances: impl Iterator<Item = &'a mut u16>, step: u16) {
+    let mut before = GREATEST;
+    for distance in distances {
+        *distance = (*distance).min(before + step);
+        before = *distance;
+    }
+}
+
+/// Lets no distance be more than a step beyond those of the next row.
+fn lower(row: &mut [u16], next: &[u16], step: u16) {
+    let mut least = |at: usize, near: Range<usize>| {
+        let near = next[near].iter().copied().min().unwrap_or(GREATEST);
+        row[at] = row[at].min(near + step);
+    };
+    let end = next.len();
+    least(0, 0..end.min(2));
+    least(end - 1, end.saturating_sub(2)..end);
+    let Some(row) = row.get_mut(1..end - 1) else {
+        return;
+    };
+    let beside = next.iter().zip(&next[2.min(end)..]);
+    for ((distance, &own), (&left, &right)) in row.iter_mut().zip(&next[1..]).zip(beside) {
+        *distance = (*distance).min(own.min(left).min(right) + step);
     }
 }
 
 /// The greatest distance where a cell and its eight neighbours show the same paint, else none.
 /// `words` has rows of `pitch`.
-fn alone(words: &[u32], pitch: usize) -> Vec<u32> {
-    let row_is_even = |row: &[u32], x: usize, word: u32| {
-        let least = x.saturating_sub(1);
-        row[least..row.len().min(x + 2)]
-            .iter()
-            .all(|&other| other == word)
-    };
-    let rows: Vec<&[u32]> = words.chunks_exact(pitch).collect();
+fn alone(words: &[u32], pitch: usize) -> Vec<u16> {
+    // Whether a cell shows a paint, as those beside it do.
+    let mut even = Vec::with_capacity(words.len());
+    for row in words.chunks_exact(pitch) {
+        let paint = |word: u32| !has_list(word) && Block::of(word).is_none();
+        let first = even.len();
+        even.extend(row.iter().map(|&word| paint(word)));
+        let pairs = row.windows(2).map(|pair| pair[0] == pair[1]);
+        for (at, same) in pairs.enumerate() {
+            even[first + at] &= same;
+            even[first + at + 1] &= same;
+        }
+    }
+    let last = words.len() / pitch - 1;
+    let row = |y: usize| y * pitch..(y + 1) * pitch;
     let mut distances = Vec::with_capacity(words.len());
-    for (y, row) in rows.iter().enumerate() {
-        let near = &rows[y.saturating_sub(1)..rows.len().min(y + 2)];
-        distances.extend(row.iter().enumerate().map(|(x, &word)| {
-            let paint = !has_list(word) && Block::of(word).is_none();
-            let even = paint && near.iter().all(|row| row_is_even(row, x, word));
+    for y in 0..=last {
+        let [above, below] = [row(y.saturating_sub(1)), row(last.min(y + 1))];
+        let own = words[row(y)].iter().zip(&even[row(y)]);
+        let above = words[above.clone()].iter().zip(&even[above]);
+        let below = words[below.clone()].iter().zip(&even[below]);
+        let cells = own.zip(above).zip(below);
+        distances.extend(cells.map(|((own, above), below)| {
+            let even = own.0 == above.0 && own.0 == below.0 && *own.1 && *above.1 && *below.1;
             if even { GREATEST } else { 0 }
         }));
     }
     distances
-}
-
-/// The least distance of a row's cells above or below `x`.
-fn three(row: &[u32], x: usize) -> u32 {
-    let cells = &row[x.saturating_sub(1)..row.len().min(x + 2)];
-    cells.iter().copied().min().unwrap_or(GREATEST)
-}
-
-fn shrink(distance: &mut u32, beside: Option<u32>, row: u32, step: u32) {
-    let least = row.min(beside.unwrap_or(GREATEST));
-    *distance = (*distance).min(least.saturating_add(step));
 }
 
 #[cfg(test)]
@@ -343,7 +387,7 @@ mod tests {
                         word & !(cell::CLEARANCE_MASK << cell::CLEARANCE_SHIFT),
                         words[y * pitch + x]
                     );
-                    let around = clearance * own / PARTS as usize;
+                    let around = clearance * own / usize::from(PARTS);
                     let reach = |from: usize, size: usize| {
                         from.saturating_sub(around)..size.min(from + own + around)
                     };

@@ -19,6 +19,11 @@ const BLOCK_COST: f64 = 0.05;
 /// Cost of a MiB. What it is worth in time is a judgement: each must save a mean lookup two commands
 /// in nine (docs/decisions/0019 has other values).
 const MIB_COST: f64 = 0.06;
+/// Of the commands that parts with outlines walk, this share at least is left in a mean quarter: an
+/// edge leaves half, because it goes through two quarters of four. Lists that are not worth a depth
+/// even so are not cut for it. Over 69 drawings that saves half of all cuts, and the depths cost a
+/// thousandth more by this model.
+const LEAST_LEFT: f64 = 0.4;
 /// No texture takes more bytes of words and commands than this, unless the file's own cells do.
 pub(super) const MAX_BYTES: usize = 48 << 20;
 
@@ -102,6 +107,17 @@ impl Search {
         };
         self.uses * (sums.walked * self.model.command + block)
             + self.model.byte * (4.0 * words + 16.0 * sums.stored)
+    }
+
+    /// Whether `depth` can be better than the best one: `present` is what the depth before takes,
+    /// and `settled` what of it stays.
+    pub(super) fn promises(&self, depth: u32, settled: Sums, present: Sums) -> bool {
+        let left = LEAST_LEFT * (present.walked - settled.walked);
+        let next = Sums {
+            walked: settled.walked + left,
+            stored: present.stored,
+        };
+        self.model.forced || self.cost(depth, next) < self.best_cost
     }
 
     /// Takes note of what `depth` takes; false where the search is at its end.

@@ -135,9 +135,8 @@ impl<'a> Divider<'a> {
         let mut kept = BTreeSet::new();
         let mut front = vec![0];
         let mut share = 1.0;
-        let mut search = self
-            .model
-            .search(settled.with(&self.parts, &front, share, &kept), uses);
+        let mut sums = settled.with(&self.parts, &front, share, &kept);
+        let mut search = self.model.search(sums, uses);
         let mut levels = Vec::new();
         for depth in 1..=self.model.max_depth {
             let length = self.parts.len();
@@ -146,7 +145,7 @@ impl<'a> Divider<'a> {
                 front.iter().partition(|at| has_outlines(at));
             settled = settled.with(&self.parts, &plain, share, &kept);
             kept.extend(hashes(&self.parts, &plain));
-            if outlined.is_empty() {
+            if outlined.is_empty() || !search.promises(depth, settled, sums) {
                 break;
             }
             share *= 0.25;
@@ -155,7 +154,7 @@ impl<'a> Divider<'a> {
             }
             levels.push((length, outlined));
             front = (length..self.parts.len()).collect();
-            let sums = settled.with(&self.parts, &front, share, &kept);
+            sums = settled.with(&self.parts, &front, share, &kept);
             if !search.visit(depth, sums) {
                 break;
             }
