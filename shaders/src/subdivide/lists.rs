@@ -42,7 +42,7 @@ impl Shown {
         Self::List {
             tag,
             commands: Span::from(first, written),
-            hash: hash(written[first..].as_flattened()),
+            hash: hash(&written[first..]),
         }
     }
 }
@@ -74,8 +74,9 @@ impl Lists {
     fn place(&mut self, commands: &[[u32; 4]], hash: u64) -> u32 {
         let next = u32::try_from(self.commands.len()).unwrap_or(cell::PAYLOAD_MASK);
         let known = *self.known.entry(hash).or_insert(next);
-        let stored = self.commands.get(known as usize..);
-        if known != next && stored.is_some_and(|stored| stored.starts_with(commands)) {
+        let stored = self.commands.get(known as usize..).unwrap_or(&[]);
+        let stored = stored.as_flattened();
+        if known != next && stored.starts_with(commands.as_flattened()) {
             return known;
         }
         self.commands.extend(commands);
@@ -84,12 +85,11 @@ impl Lists {
 }
 
 /// A hash that need not stand up to an adversary: equal ones are compared, or are an estimate.
-fn hash(words: &[u32]) -> u64 {
+fn hash(commands: &[[u32; 4]]) -> u64 {
     const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
-    let mix = |hash: u64, &word: &u32| {
-        (hash ^ u64::from(word))
-            .wrapping_mul(FACTOR)
-            .rotate_left(29)
-    };
-    words.iter().fold(FACTOR, mix)
+    let mix = |hash: u64, word: u64| (hash ^ word).wrapping_mul(FACTOR).rotate_left(29);
+    let pair = |low: u32, high: u32| u64::from(high) << 32 | u64::from(low);
+    commands.iter().fold(FACTOR, |hash, &[a, c, b, tag]| {
+        mix(mix(hash, pair(a, c)), pair(b, tag))
+    })
 }
