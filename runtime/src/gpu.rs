@@ -53,7 +53,7 @@ impl Gpu {
             Some(name) => named_adapter(&instance, name).await?,
             None => best_adapter(&instance).await?,
         };
-        let optional = wgpu::Features::TIMESTAMP_QUERY;
+        let optional = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::TEXTURE_COMPRESSION_BC;
         let (device, queue) = adapter
             .request_device(&wgpu::DeviceDescriptor {
                 label: Some("vtex"),
