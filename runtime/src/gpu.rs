@@ -22,7 +22,7 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// Opens an adapter without a window, with the limits of core WebGPU, and timestamps where
+    /// Opens an adapter without a window, with the limits of core WebGPU; with timestamps and BC textures where
     /// the adapter has them. Hardware is preferred; a software driver serves when it is all there
     /// is. [`ADAPTER_VARIABLE`] overrides the choice.
     ///
@@ -53,6 +53,7 @@ impl Gpu {
             Some(name) => named_adapter(&instance, name).await?,
             None => best_adapter(&instance).await?,
         };
+        // Clocks, and block-compressed textures beside vector textures.
         let optional = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::TEXTURE_COMPRESSION_BC;
         let (device, queue) = adapter
             .request_device(&wgpu::DeviceDescriptor {

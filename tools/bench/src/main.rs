@@ -174,7 +174,7 @@ impl Run {
             report.add(tables::minified_table(device, effort)?)?;
             report.add(tables::fetch_table(device, effort)?)?;
             report.add_all(tables::gpu_tables(device, subjects, effort)?)?;
-            report.add(tables::bands_table(device, subjects, effort)?)?;
+            report.add(tables::answers_table(device, subjects, effort)?)?;
         }
         if self.args.wants(Part::Rays) {
             let effort = self.until(RAYS_END);

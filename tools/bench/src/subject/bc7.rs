@@ -1,6 +1,6 @@
 //! The rival that engines ship: the raster texture in BC7 blocks, with its mips.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use block_compression::encode::compress_rgba8;
 use block_compression::{BC7Settings, CompressionVariant};
@@ -34,7 +34,7 @@ impl Bc7 {
     ///
     /// Most blocks of a drawing are of one colour, so each distinct block is encoded once.
     pub(crate) fn encode(image: &Image) -> Self {
-        let mut known: HashMap<[u8; BLOCK_RGBA], usize> = HashMap::new();
+        let mut known: BTreeMap<[u8; BLOCK_RGBA], usize> = BTreeMap::new();
         let mut distinct: Vec<[u8; BLOCK_RGBA]> = Vec::new();
         let levels: Vec<Vec<usize>> = (0..)
             .zip(&image.mips)

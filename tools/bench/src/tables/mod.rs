@@ -1,6 +1,6 @@
 //! What is measured: one file for each table or group of tables.
 
-mod bands;
+mod answers;
 mod isa;
 mod load;
 mod lookups;
@@ -12,7 +12,7 @@ mod sfg22;
 mod sizes;
 mod stages;
 
-pub(crate) use bands::bands_table;
+pub(crate) use answers::answers_table;
 pub(crate) use isa::add_isa_tables;
 pub(crate) use load::load_table;
 pub(crate) use lookups::{count_table, cpu_tables, gpu_tables};
