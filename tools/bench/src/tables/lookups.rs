@@ -9,9 +9,13 @@ use vtex_shaders::layout::BatchQuery;
 use vtex_shaders::{BindingSlot, FilterMode, PackOptions, fragment, spec_key};
 
 use super::left_out;
+use super::rivals::nothing_kernel;
 use crate::report::{Cell, Table};
 use crate::subject::{BC7_SIZES, CpuRaster, FILTERS, RASTER_SIZE, Subject, hardware_kernel};
 use crate::timing::{Device, Effort, Kernel, QuerySet, Timing, Trial, interleave};
+
+/// Lookups a run of what takes a software driver seconds.
+const FEW_LOOKUPS: usize = 1 << 18;
 
 /// One table for each query set. Rows are files, and the raster is the baseline.
 pub(crate) fn gpu_tables(
@@ -28,11 +32,13 @@ pub(crate) fn gpu_tables(
         }
         let kernels = gpu_kernels(device, subject);
         for set in subject.query_sets(effort.gpu_lookups) {
-            let batch = device.batch(&set);
-            let trials = kernels
-                .iter()
-                .flatten()
-                .map(|kernel| Trial::timed(set.len(), || device.time(kernel, &batch)));
+            let few = set.shorter(FEW_LOOKUPS);
+            let batches = [&set, &few].map(|set| (set.len(), device.batch(set)));
+            let trials = kernels.iter().flatten().map(|(kernel, kind)| {
+                let is_slow = *kind == Kind::SlowInSoftware && device.is_software();
+                let (lookups, batch) = &batches[usize::from(is_slow)];
+                Trial::timed(*lookups, || device.time(kernel, batch))
+            });
             let mut timings = effort.interleave(trials.collect())?.into_iter();
             let timings = kernels
                 .iter()
@@ -57,23 +63,34 @@ pub(crate) fn gpu_tables(
 /// Names of what [`gpu_kernels`] returns; the first is the baseline.
 fn gpu_columns(device: &Device) -> Vec<String> {
     let mut columns = vec![format!("raster {RASTER_SIZE}^2")];
+    columns.extend(FILTERS.map(|(name, _)| name.to_owned()));
     if device.has_bc7() {
         columns.extend(BC7_SIZES.map(|size| format!("BC7 {size}^2")));
     }
-    columns.push("bands".to_owned());
-    columns.extend(FILTERS.map(|(name, _)| name.to_owned()));
+    columns.extend(["bands", "no texture"].map(str::to_owned));
     columns
 }
 
-/// The rivals and the filter modes; `None` where a rival does not take this drawing.
-fn gpu_kernels(device: &Device, subject: &Subject) -> Vec<Option<Kernel>> {
-    let mut kernels = vec![Some(hardware_kernel(device, &subject.raster))];
+/// How a kernel fares without a graphics card.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Usual,
+    /// Software decodes a block of BC7 at each fetch, and goes through every shape for all lanes.
+    SlowInSoftware,
+}
+
+/// The filter modes and the rivals; `None` where a rival does not take this drawing.
+fn gpu_kernels(device: &Device, subject: &Subject) -> Vec<Option<(Kernel, Kind)>> {
+    let usual = |kernel| Some((kernel, Kind::Usual));
+    let slow = |kernel| (kernel, Kind::SlowInSoftware);
+    let mut kernels = vec![usual(hardware_kernel(device, &subject.raster))];
+    kernels.extend(FILTERS.map(|(_, filter)| usual(vtex_kernel(device, subject, filter))));
     if device.has_bc7() {
         let textures = 0..BC7_SIZES.len();
-        kernels.extend(textures.map(|first| Some(subject.bc7().kernel(device, first))));
+        kernels.extend(textures.map(|first| Some(slow(subject.bc7().kernel(device, first)))));
     }
-    kernels.push(subject.bands.kernel(device));
-    kernels.extend(FILTERS.map(|(_, filter)| Some(vtex_kernel(device, subject, filter))));
+    kernels.push(subject.bands.kernel(device).map(slow));
+    kernels.push(usual(nothing_kernel(device)));
     kernels
 }
 
@@ -247,7 +264,7 @@ fn meaning(name: &str) -> &'static str {
             "Blocks of 64 x 64 pixels at 8x from everywhere on the canvas, in screen order"
         }
         "8x" => "The 512 x 512 pixels of the canvas' busiest part at 8x, in screen order",
-        "1x" => "The whole canvas in 512 pixels, in screen order (answered by mips)",
+        "1x" => "The whole canvas in 512 pixels, in screen order",
         _ => "Random points of the canvas with the footprint of a pixel at 8x",
     }
 }
