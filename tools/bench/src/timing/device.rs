@@ -83,6 +83,12 @@ impl Device {
         self.info.device_type == wgpu::DeviceType::Cpu
     }
 
+    /// Whether it has BC7 textures.
+    pub(crate) fn has_bc7(&self) -> bool {
+        let features = self.device.features();
+        features.contains(wgpu::Features::TEXTURE_COMPRESSION_BC)
+    }
+
     /// Name and value, for people.
     pub(crate) fn lines(&self) -> Vec<(&'static str, String)> {
         let wgpu::AdapterInfo {
