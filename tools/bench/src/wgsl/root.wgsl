@@ -48,7 +48,7 @@ fn bench_main(
     let frame = row / tiles.y;
     let shift = (frame * vec2u(3u, 5u)) % q.stride;
     let block = tile / 8u * q.stride + shift;
-    let pixel = (block * 8u + tile % 8u) * 8u + vec2u(lane % 8u, lane % 64u / 8u);
+    let pixel = (block * 8u + tile % 8u) * 8u + vec2u(index % 8u, index % 64u / 8u);
     let on_screen = q.origin + (vec2f(pixel) + jitter) * q.pixel;
     let uv = select(on_screen, jitter, q.scattered == 1u);
     let color = bench_sample(uv, vec4f(q.pixel.x, 0.0, 0.0, q.pixel.y));
