@@ -63,7 +63,7 @@ fn average(
     let mut canvas = Canvas::new(sampler, lookup, p);
     let mut pass = canvas.pass(sampler, canvas.centre);
     observer.cell();
-    // The GPU's text has no branch; most footprints lie in one paint.
+    // Most footprints lie in one paint.
     if pass.whole && pass.word >> cell::TAG_SHIFT < cell::LIST {
         return point(sampler, lookup, pass.word, canvas.centre, observer);
     }
