@@ -22,7 +22,8 @@ use crate::timing::{Device, Effort, Machine};
 /// How much of a run with `--card` has passed when the part begins no more files: less than five
 /// minutes in all, with time for the last file.
 const PARITY_ENDS: Duration = Duration::from_secs(120);
-const LOOKUPS_END: Duration = Duration::from_secs(200);
+const LOOKUPS_END: Duration = Duration::from_secs(170);
+const ANSWERS_END: Duration = Duration::from_secs(200);
 const RAYS_END: Duration = Duration::from_secs(250);
 const LOADS_END: Duration = Duration::from_secs(270);
 /// Graphics cards take a while to raise their clock.
@@ -174,6 +175,7 @@ impl Run {
             report.add(tables::minified_table(device, effort)?)?;
             report.add(tables::fetch_table(device, effort)?)?;
             report.add_all(tables::gpu_tables(device, subjects, effort)?)?;
+            let effort = self.until(ANSWERS_END);
             report.add(tables::answers_table(device, subjects, effort)?)?;
         }
         if self.args.wants(Part::Rays) {
