@@ -5,7 +5,7 @@ use std::path::Path;
 
 use exr::prelude::{Image, Vec2, WritableImage};
 use vtex_format::VtexFile;
-use vtex_runtime::{Film, Gpu, LoadOptions, ToneMap, TraceOptions, Tracer, scene};
+use vtex_runtime::{Film, FilterMode, Gpu, LoadOptions, ToneMap, TraceOptions, Tracer, scene};
 use vtex_scenes::showroom;
 use vtex_truth::picture::encode_png;
 
@@ -28,6 +28,8 @@ pub(crate) struct Settings {
     pub(crate) size_px: [u32; 2],
     /// Samples per pixel.
     pub(crate) spp: u32,
+    /// How lookups of the textures filter.
+    pub(crate) filter: FilterMode,
     /// Most bounces of a path.
     pub(crate) bounces: u32,
     /// Seed of the random numbers.
@@ -46,10 +48,13 @@ const SAMPLES_A_STEP: u32 = 4;
 pub(crate) fn trace(files: Vec<VtexFile>, settings: Settings, console: Console) -> Outcome<Film> {
     let gpu = Gpu::headless()?;
     console.detail(&format!("tracing on {}", gpu.adapter_name()));
-    let scene = match (settings.kind, files.first()) {
+    let mut scene = match (settings.kind, files.first()) {
         (SceneKind::Plane, Some(file)) => scene::plane(file.clone(), LoadOptions::default()),
         _ => showroom(files),
     };
+    for (_, options) in &mut scene.textures {
+        options.pack.filter = settings.filter;
+    }
     let options = TraceOptions {
         max_bounces: settings.bounces,
         seed: settings.seed,
