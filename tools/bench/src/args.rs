@@ -34,8 +34,8 @@ pub(crate) struct Args {
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) rounds: Option<u16>,
     /// Lookups per run on the GPU, in units of 2^18 (one window of 512 x 512) [default: 4; with
-    /// --card 16].
-    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=16))]
+    /// --card 64].
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) windows: Option<u16>,
     /// Chips that the part isa compiles for: `own`, the machine's own by its own driver, and any of
     /// AMD's by the names of `RADV_FORCE_FAMILY`, which takes Mesa's RADV but no such chip.

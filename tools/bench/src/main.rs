@@ -25,7 +25,7 @@ const PARITY_ENDS: Duration = Duration::from_secs(120);
 const LOOKUPS_END: Duration = Duration::from_secs(200);
 const RAYS_END: Duration = Duration::from_secs(260);
 /// Graphics cards take a while to raise their clock.
-const CARD_WARM_UP: Duration = Duration::from_millis(150);
+const CARD_WARM_UP: Duration = Duration::from_millis(100);
 
 fn main() -> Result<()> {
     let args = Args::parse();
@@ -65,7 +65,7 @@ fn main() -> Result<()> {
 
 fn effort(args: &Args) -> Effort {
     let [rounds, windows] = match args.card {
-        true => [7, 16],
+        true => [7, 64],
         false => [5, 4],
     };
     Effort {

@@ -9,6 +9,7 @@ use vtex_shaders::layout::BatchQuery;
 use vtex_shaders::{BindingSlot, FilterMode, PackOptions, fragment, spec_key};
 
 use super::left_out;
+use super::rivals::nothing_kernel;
 use crate::report::{Cell, Table};
 use crate::subject::{CpuRaster, FILTERS, RASTER_SIZE, Subject, hardware_kernel};
 use crate::timing::{Device, Effort, Kernel, QuerySet, Timing, Trial, interleave};
@@ -28,6 +29,7 @@ pub(crate) fn gpu_tables(
         }
         let mut kernels = vec![hardware_kernel(device, &subject.raster)];
         kernels.extend(FILTERS.map(|(_, filter)| vtex_kernel(device, subject, filter)));
+        kernels.push(nothing_kernel(device));
         for set in subject.query_sets(effort.gpu_lookups) {
             let batch = device.batch(&set);
             let trials = kernels
@@ -37,7 +39,7 @@ pub(crate) fn gpu_tables(
         }
     }
     let baseline = "sRGB8 with mips through the trilinear sampler";
-    let mut tables = tables("Lookups on the GPU", baseline, &rows);
+    let mut tables = tables("Lookups on the GPU", baseline, &["no texture"], &rows);
     for table in &mut tables {
         rest.iter().for_each(|rest| table.note(rest));
     }
@@ -74,7 +76,7 @@ pub(crate) fn cpu_tables(
         _ => format!("Lookups by the CPU twin, {threads} cores"),
     };
     let baseline = "sRGB8 with mips, trilinear in Rust";
-    Ok(tables(&title, baseline, &rows))
+    Ok(tables(&title, baseline, &[], &rows))
 }
 
 /// What lookups of the twin and of the GPU read, and what the texture takes.
@@ -168,10 +170,10 @@ fn spread(
     start.elapsed()
 }
 
-/// Timings of raster, point, footprint and paper for a file and query set.
+/// Timings of raster, point, footprint, paper and the rivals for a file and query set.
 type Row<'a> = (&'a Subject, QuerySet, Vec<Timing>);
 
-fn tables(title: &str, baseline: &str, rows: &[Row<'_>]) -> Vec<Table> {
+fn tables(title: &str, baseline: &str, rivals: &[&str], rows: &[Row<'_>]) -> Vec<Table> {
     let mut tables: Vec<(&str, Table)> = Vec::new();
     for (subject, set, timings) in rows {
         let place = tables
@@ -179,10 +181,9 @@ fn tables(title: &str, baseline: &str, rows: &[Row<'_>]) -> Vec<Table> {
             .position(|(name, _)| *name == set.name)
             .unwrap_or_else(|| {
                 let raster = format!("raster {RASTER_SIZE}^2");
-                let columns: Vec<&str> = ["million lookups/s", &raster]
-                    .into_iter()
-                    .chain(FILTERS.iter().map(|(name, _)| *name))
-                    .collect();
+                let mut columns = vec!["million lookups/s", &raster];
+                columns.extend(FILTERS.map(|(name, _)| name));
+                columns.extend(rivals);
                 let mut table = Table::new(format!("{title}, {}", set.name), &columns);
                 table.note(format!("{}; raster: {baseline}.", meaning(set.name)));
                 tables.push((set.name, table));
@@ -210,7 +211,7 @@ fn meaning(name: &str) -> &'static str {
             "Blocks of 64 x 64 pixels at 8x from everywhere on the canvas, in screen order"
         }
         "8x" => "The 512 x 512 pixels of the canvas' busiest part at 8x, in screen order",
-        "1x" => "The whole canvas in 512 pixels, in screen order (answered by mips)",
+        "1x" => "The whole canvas in 512 pixels, in screen order",
         _ => "Random points of the canvas with the footprint of a pixel at 8x",
     }
 }
