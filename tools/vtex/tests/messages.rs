@@ -181,7 +181,7 @@ fn extract_counts_files_before_it_writes_them() {
 }
 
 #[test]
-fn render_takes_a_filter() {
+fn render_takes_a_filter_and_names_a_size_too_large() {
     if !vtex_testing::gpu("the filters of vtex render") {
         return;
     }
@@ -210,4 +210,11 @@ fn render_takes_a_filter() {
     assert!(default != footprint, "the footprint filter changes nothing");
     assert!(default != paper, "paper mode changes nothing");
     assert!(footprint != paper, "paper mode is the footprint filter");
+    let output = vtex(
+        folder,
+        "render lines.vtex -o large.png --size 16384 --spp 1",
+    );
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(8), "{text}");
+    assert!(text.contains("vtex: --size: 16384 x 16384"), "{text}");
 }

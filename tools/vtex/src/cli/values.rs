@@ -63,7 +63,7 @@ pub(super) fn view(text: &str) -> Result<View, String> {
     let least = farthest / MAX_VIEW;
     if view.extent().iter().any(|&side| side < least) {
         return Err(format!(
-            "width and height of this view must be at least {least:.1e}"
+            "width and height of this view must be at least {least:e}"
         ));
     }
     Ok(view)
