@@ -7,7 +7,7 @@
 
 use vtex_format::Features;
 
-use super::brush::{BrushColor, brush};
+use super::brush::{self, BrushColor};
 use super::color;
 use super::cost::Observer;
 use super::edge::{Edge, ring, taken, target};
@@ -142,7 +142,7 @@ impl Composite {
         tag: u32,
         observer: &mut impl Observer,
     ) {
-        let met = covered & self.live;
+        let met = brush::covered(sampler, samples, tag, covered & self.live);
         if met == 0 {
             return;
         }
@@ -155,9 +155,8 @@ impl Composite {
             self.hide(color, met);
             return;
         }
-        let brush = brush(sampler, tag, uv, lookup);
-        // An opaque image shows nothing, and hides nothing, outside its rectangle.
-        if opaque && brush.encoded[3] > 0.0 {
+        let brush = brush::brush(sampler, tag, uv, lookup);
+        if opaque {
             let before = (self.count, self.only, self.color);
             self.take(&brush);
             let color = self.value();

@@ -1,6 +1,7 @@
 //!use core/layout
 //!use vtex/texture
 //!use vtex/settings
+//!use vtex/mapping_inset
 //!use vtex/lookup
 //!use vtex/cell
 //!use vtex/samples
@@ -24,8 +25,10 @@ fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
     let centre = p - home;
     let extent = vtex_rows_extent(axes);
     var rows = vtex_rows(centre, axes, vtex_rows_phase(p, axes));
-    var canvas_low = vt.cell_from_uv.zw - home;
-    var canvas_high = vt.cell_from_uv.xy + canvas_low;
+    // As far as places are kept inside it.
+    let inset = vtex_mapping_inset(vt) * vt.cell_from_uv.xy;
+    var canvas_low = vt.cell_from_uv.zw + inset - home;
+    var canvas_high = vt.cell_from_uv.xy - 2.0 * inset + canvas_low;
     var sum = vec4f(0.0);
     var count = 0.0;
     var live = VTEX_SAMPLES_EVERY;
