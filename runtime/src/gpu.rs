@@ -22,9 +22,9 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// Opens an adapter without a window, with the limits of core WebGPU, and timestamps where
-    /// the adapter has them. Hardware is preferred; a software driver serves when it is all there
-    /// is. [`ADAPTER_VARIABLE`] overrides the choice.
+    /// Opens an adapter without a window, with the limits of core WebGPU, and with timestamps and
+    /// BC textures where the adapter has them. Hardware is preferred; a software driver serves when
+    /// it is all there is. [`ADAPTER_VARIABLE`] overrides the choice.
     ///
     /// Errors of this crate's own calls come back as [`RuntimeError`]. wgpu panics on any other
     /// unless told not to; this device is told to drop them, so a program that makes calls of its
@@ -53,7 +53,8 @@ impl Gpu {
             Some(name) => named_adapter(&instance, name).await?,
             None => best_adapter(&instance).await?,
         };
-        let optional = wgpu::Features::TIMESTAMP_QUERY;
+        // Clocks, and block-compressed textures beside vector textures.
+        let optional = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::TEXTURE_COMPRESSION_BC;
         let (device, queue) = adapter
             .request_device(&wgpu::DeviceDescriptor {
                 label: Some("vtex"),

@@ -50,6 +50,7 @@ sources! {
     "vtex/lookup",
     "vtex/mapping_any",
     "vtex/mapping_clamp",
+    "vtex/mapping_inset",
     "vtex/minify",
     "vtex/msdf",
     "vtex/msdf_edge",

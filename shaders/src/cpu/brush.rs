@@ -1,5 +1,6 @@
 //! Twin of `vtex/brush_*.wgsl`: the colour of an entry, as lists composite it.
 
+use super::samples::Samples;
 use super::{Lookup, Sampler, color, image, paint};
 use crate::layout::cmd;
 
@@ -10,6 +11,16 @@ pub(super) struct BrushColor {
     pub(super) encoded: [f32; 4],
     /// In linear light; its alpha is negative where it is not known.
     pub(super) linear: [f32; 4],
+}
+
+/// The samples of `mask` that the entry's brush covers: a paint does everywhere, and an image inside
+/// its rectangle.
+pub(super) fn covered<S: Samples>(sampler: &Sampler<'_>, samples: &S, tag: u32, mask: u32) -> u32 {
+    if mask == 0 || tag & cmd::KIND_MASK != cmd::IMAGE {
+        return mask;
+    }
+    let rect = image::entry_rect(sampler, tag & cmd::INDEX_MASK);
+    mask & samples.within(sampler, rect)
 }
 
 pub(super) fn brush(sampler: &Sampler<'_>, tag: u32, uv: [f32; 2], lookup: &Lookup) -> BrushColor {

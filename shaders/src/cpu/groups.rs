@@ -4,7 +4,7 @@
 use vtex_format::MAX_BLEND_DEPTH;
 
 use super::blend::blend;
-use super::brush::brush;
+use super::brush;
 use super::color::decode_premultiplied;
 use super::cost::Observer;
 use super::edge::{BEYOND, Edge, is_branch, taken, target};
@@ -55,14 +55,17 @@ pub(super) fn groups<S: Samples>(
             if branches {
                 at = target(tag, next);
             }
-        } else if covered & leader != 0 {
-            live &= covered;
+            continue;
+        }
+        let drawn = brush::covered(sampler, samples, tag, covered);
+        if drawn & leader != 0 {
+            live &= drawn;
             observer.paint(tag);
-            let brush = brush(sampler, tag, samples.uv(live), lookup).encoded;
+            let brush = brush::brush(sampler, tag, samples.uv(live), lookup).encoded;
             let through = 1.0 - brush[3];
             stack.color = std::array::from_fn(|i| brush[i] + through * stack.color[i]);
         } else {
-            live &= !covered;
+            live &= !drawn;
         }
     }
     Resolved::of(decode_premultiplied(stack.color), live)

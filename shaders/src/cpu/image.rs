@@ -156,16 +156,21 @@ pub(super) fn filtered(
     value.map(|channel| channel / count)
 }
 
-/// A patch that stands for what is not vector: nothing outside its rectangle.
+/// In uv: left, upper, right and lower side.
+pub(super) fn entry_rect(sampler: &Sampler<'_>, index: u32) -> [f32; 4] {
+    let record = index.wrapping_mul(image::WORDS);
+    let first = record.wrapping_add(sampler.settings.images);
+    sampler.word_float4(first.wrapping_add(image::RECT_UV))
+}
+
+/// Of a patch that stands for what is not vector, or an image of the drawing, at a place inside its
+/// rectangle.
 pub(super) fn entry(sampler: &Sampler<'_>, index: u32, uv: [f32; 2], lookup: &Lookup) -> [f32; 4] {
     let s = &sampler.settings;
     let record = index.wrapping_mul(image::WORDS).wrapping_add(s.images);
-    let rect = sampler.word_float4(record.wrapping_add(image::RECT_UV));
+    let rect = entry_rect(sampler, index);
     let size = [rect[2] - rect[0], rect[3] - rect[1]];
-    let t = [(uv[0] - rect[0]) / size[0], (uv[1] - rect[1]) / size[1]];
-    if t.iter().any(|t| *t < 0.0 || *t > 1.0) {
-        return [0.0; 4];
-    }
+    let t = [0, 1].map(|axis| clamp((uv[axis] - rect[axis]) / size[axis], 0.0, 1.0));
     let width = to_f32(sampler.word(record.wrapping_add(image::SIZE)));
     let texels_per_cell = width / (size[0] * s.scale[0]);
     let region = Region::new(lookup.axes, texels_per_cell);

@@ -1,11 +1,14 @@
-//! Twin of `vtex/mapping_any.wgsl`, and so of `vtex/mapping_clamp.wgsl`, which is what it does for
-//! the identity and the address mode clamp.
+//! Twin of `vtex/mapping_inset.wgsl` and `vtex/mapping_any.wgsl`, and so of `vtex/mapping_clamp.wgsl`,
+//! which is what it does for the identity and the address mode clamp.
 
 use vtex_format::Features;
 
 use super::Sampler;
 use super::math::clamp;
 use crate::layout::address::{BORDER, MIRROR, REPEAT};
+
+/// Units along the canvas, at least: without curves there are none.
+const LEAST_UNITS: f32 = 131_072.0;
 
 fn linear(m: &[f32; 6], v: [f32; 2]) -> [f32; 2] {
     [m[0] * v[0] + m[2] * v[1], m[1] * v[0] + m[3] * v[1]]
@@ -37,13 +40,24 @@ fn axis(t: f32, mode: u32) -> f32 {
             let turn = t - 2.0 * (t * 0.5).floor();
             if turn > 1.0 { 2.0 - turn } else { turn }
         }
-        _ => clamp(t, 0.0, 1.0),
+        // Clamped in any mode.
+        _ => t,
     }
+}
+
+/// How far inside the canvas places are kept, in uv: three halves of a unit of the curve lattice, to
+/// which a shape that ends with the canvas is rounded. Its side itself may show what lies behind.
+pub(super) fn inset(sampler: &Sampler<'_>, axis: usize) -> f32 {
+    let units = sampler.settings.curve_lattice[0] * sampler.settings.scale[axis];
+    1.5 / units.max(LEAST_UNITS)
 }
 
 pub(super) fn address(sampler: &Sampler<'_>, uv: [f32; 2]) -> [f32; 2] {
     let modes = sampler.settings.address;
-    [axis(uv[0], modes[0]), axis(uv[1], modes[1])]
+    [0, 1].map(|i| {
+        let inset = inset(sampler, i);
+        clamp(axis(uv[i], modes[i]), inset, 1.0 - inset)
+    })
 }
 
 #[expect(

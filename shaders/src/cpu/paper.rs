@@ -1,6 +1,6 @@
 //! Twin of `vtex/paper.wgsl`: the filter of \[SFG22\], as a baseline.
 
-use super::brush::brush;
+use super::brush;
 use super::color;
 use super::edge::{Edge, taken, target};
 use super::math::smoothstep;
@@ -40,8 +40,14 @@ pub(super) fn paper<S: Samples>(
             if s.outline {
                 outer = ramp(sampler, distance + s.outline_width);
             }
-        } else if edge.covered(sampler, samples, words, 1) & 1 == 0 {
-            inner = 0.0;
+        } else {
+            let mut covered = edge.covered(sampler, samples, words, 1);
+            if tag & cmd::CONTROL_BIT == 0 {
+                covered = brush::covered(sampler, samples, tag, covered);
+            }
+            if covered & 1 == 0 {
+                inner = 0.0;
+            }
         }
         if tag & cmd::CONTROL_BIT != 0 {
             if taken(tag, u32::from(inner > 0.0)) & 1 != 0 {
@@ -53,7 +59,7 @@ pub(super) fn paper<S: Samples>(
             let mut entry = [0.0; 4];
             for (share, tag) in [(inner, tag), ((outer - inner).max(0.0), s.outline_tag)] {
                 if share > 0.0 {
-                    let brush = brush(sampler, tag, samples.uv(1), lookup).encoded;
+                    let brush = brush::brush(sampler, tag, samples.uv(1), lookup).encoded;
                     entry = std::array::from_fn(|i| entry[i] + share * brush[i]);
                 }
             }

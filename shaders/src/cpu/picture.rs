@@ -10,7 +10,7 @@ use super::plane::Vec2;
 use super::rows::{CellRows, Phase, Rows, extent};
 use super::samples::{Point, Samples};
 use super::walk::{Resolved, walk};
-use super::{Lookup, Sampler, groups, paint, paper};
+use super::{Lookup, Sampler, groups, mapping, paint, paper};
 use crate::layout::rows::{EVERY, SAMPLES};
 use crate::layout::{cell, cmd, filter};
 
@@ -64,7 +64,7 @@ fn average(
 ) -> [f32; 4] {
     let mut canvas = Canvas::new(sampler, lookup, p);
     let mut pass = canvas.pass(sampler, canvas.centre, observer);
-    // The GPU's text has no branch; most footprints lie in one paint.
+    // Most footprints lie in one paint.
     if pass.whole && pass.word >> cell::TAG_SHIFT < cell::LIST {
         return point(sampler, lookup, pass.word, canvas.centre, observer);
     }
@@ -138,14 +138,16 @@ impl Canvas {
         let s = &sampler.settings;
         let home = p.map(f32::floor);
         let centre = [p[0] - home[0], p[1] - home[1]];
-        let low = [0, 1].map(|i| s.offset[i] - home[i]);
+        // As far as places are kept inside the canvas.
+        let inset = [0, 1].map(|i| mapping::inset(sampler, i) * s.scale[i]);
+        let low = [0, 1].map(|i| s.offset[i] + inset[i] - home[i]);
         Self {
             home,
             centre,
             extent: extent(lookup.axes),
             rows: Rows::default(),
             low,
-            high: [0, 1].map(|i| s.scale[i] + low[i]),
+            high: [0, 1].map(|i| s.scale[i] - 2.0 * inset[i] + low[i]),
         }
     }
 

@@ -13,6 +13,9 @@ use crate::layout::rows::{COLUMNS, EVERY, ROWS, SAMPLES, SHIFT};
 
 /// A row and a column are no smaller, in cells.
 const LEAST: f32 = 1e-12;
+/// How far a box may reach beyond its sides, in cells: as much as rounding may take. A canvas ends where
+/// an image that fills it does.
+const SLACK: f32 = 1e-6;
 /// A number for each sample of a row.
 type Row = [f32; COLUMNS as usize];
 /// The samples of a row, and the columns that they lie in (docs/decisions/0016).
@@ -299,6 +302,17 @@ impl Samples for CellRows {
         } else {
             some
         }
+    }
+
+    fn within(&self, sampler: &Sampler<'_>, sides: [f32; 4]) -> u32 {
+        let s = &sampler.settings;
+        let corner = |first: usize, slack: f32| {
+            [0, 1].map(|i| {
+                let place = self.centre[i] + self.cell[i];
+                place + (sides[first + i] - self.uv[0][i]) * s.scale[i] + slack
+            })
+        };
+        self.rows.within(corner(0, -SLACK), corner(2, SLACK))
     }
 
     fn uv(&self, mask: u32) -> Vec2 {

@@ -1,7 +1,7 @@
 //! Twin of `vtex/samples_point.wgsl`: what a lookup samples, as bits of a mask.
 
 use super::plane::Vec2;
-use super::segment;
+use super::{Sampler, segment};
 use crate::layout::cmd::{BASE_LEFT, BASE_RIGHT, EVEN_ODD_BIT};
 
 /// The samples of a lookup as seen from one cell of the file. A walk speaks of them as bits of a
@@ -13,6 +13,8 @@ pub(super) trait Samples {
     fn wind(&self, winding: &mut Self::Winding, command: [u32; 4]);
     /// The samples that an entry with this tag covers.
     fn filled(&self, winding: Self::Winding, tag: u32) -> u32;
+    /// The samples in a box, in uv: its corner of least coordinates, then the other.
+    fn within(&self, sampler: &Sampler<'_>, sides: [f32; 4]) -> u32;
     /// The mean of samples, in uv.
     fn uv(&self, mask: u32) -> Vec2;
     /// The place of one sample inside the file's cell.
@@ -46,6 +48,11 @@ impl Samples for Point {
         } else {
             total != 0
         })
+    }
+
+    fn within(&self, _: &Sampler<'_>, [left, top, right, bottom]: [f32; 4]) -> u32 {
+        let [u, v] = self.uv;
+        u32::from(u >= left && v >= top && u <= right && v <= bottom)
     }
 
     fn uv(&self, _: u32) -> Vec2 {

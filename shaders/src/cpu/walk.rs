@@ -7,7 +7,7 @@
 
 use vtex_format::Features;
 
-use super::brush::{BrushColor, brush};
+use super::brush::{self, BrushColor};
 use super::color;
 use super::cost::Observer;
 use super::edge::{Edge, ring, taken, target};
@@ -48,6 +48,10 @@ pub(super) fn walk<S: Samples>(
     // The texels of an image may have any alpha.
     let translucent = Features::TRANSLUCENT | Features::IMAGES;
     let mut composite = Composite::new(live, sampler.settings.has(translucent));
+    // Solid paints are the same for samples of whatever walk.
+    if !composite.restarts && sampler.settings.has(Features::GRADIENTS) {
+        composite.entries = 2;
+    }
     let mut edge = Edge::<S>::new();
     let mut at = first;
     for _ in 0..cmd::LIMIT {
@@ -85,9 +89,12 @@ pub(super) fn walk<S: Samples>(
 struct Composite {
     /// The samples that the walk goes on with.
     live: u32,
-    /// Whether translucent paints may be met: of opaque ones all samples share what they share in
-    /// any walk.
+    /// Whether translucent paints may be met.
     restarts: bool,
+    /// Where all paints are opaque: after how many entries that samples meet the walk ends. Those that
+    /// are left take another walk, with others beside them, and samples of one walk that meet one entry
+    /// share a place in a gradient.
+    entries: u32,
     /// Whether an entry that hides what lies behind it has left some samples out.
     split: bool,
     /// Those that are done, and their colours.
@@ -104,6 +111,7 @@ impl Composite {
         Self {
             live,
             restarts,
+            entries: u32::MAX,
             split: false,
             resolved: Resolved {
                 sum: [0.0; 4],
@@ -134,7 +142,7 @@ impl Composite {
         tag: u32,
         observer: &mut impl Observer,
     ) {
-        let met = covered & self.live;
+        let met = brush::covered(sampler, samples, tag, covered & self.live);
         if met == 0 {
             return;
         }
@@ -147,9 +155,8 @@ impl Composite {
             self.hide(color, met);
             return;
         }
-        let brush = brush(sampler, tag, uv, lookup);
-        // An opaque image shows nothing, and hides nothing, outside its rectangle.
-        if opaque && brush.encoded[3] > 0.0 {
+        let brush = brush::brush(sampler, tag, uv, lookup);
+        if opaque {
             let before = (self.count, self.only, self.color);
             self.take(&brush);
             let color = self.value();
@@ -198,6 +205,11 @@ impl Composite {
             }
             self.split = true;
         }
+        if self.entries == 0 {
+            self.live = 0;
+            return;
+        }
+        self.entries -= 1;
         self.end(color, those);
     }
 

@@ -334,3 +334,37 @@ fn garbage_words_never_panic() {
         Sampler::new(&broken).sample([special, uv[1]], [0.0; 4]);
     }
 }
+
+#[test]
+fn a_footprint_sees_the_share_of_a_patch_that_it_covers() {
+    for (alpha, opaque) in [(255, true), (255, false), (100, false)] {
+        let file = patched_as(alpha, opaque);
+        let words = [FilterMode::Point, FilterMode::Footprint].map(|filter| {
+            let options = PackOptions {
+                filter,
+                ..PackOptions::default()
+            };
+            pack(&file, &options)
+        });
+        let [points, footprints] = words.each_ref().map(|words| Sampler::new(words));
+        let mut shares = Vec::new();
+        for i in 0..400 {
+            let turn = 0.1 * i as f32;
+            let [x, y] = [0.1 * turn.cos(), 0.1 * turn.sin()];
+            let axes = [x, y, -y, x];
+            let uv = [0.5 + 0.12 * (0.37 * turn).sin(), 0.4];
+            let places = footprints.places(uv, axes);
+            let sum = places.iter().fold([0.0; 4], |sum, place| {
+                let one = points.sample(*place, [0.0; 4]);
+                std::array::from_fn(|k| sum[k] + f64::from(one[k]))
+            });
+            let got = footprints.sample(uv, axes);
+            check(got, sum.map(|channel| channel / places.len() as f64), 1e-5);
+            shares.push((1000.0 * got[1]) as i32);
+        }
+        shares.sort_unstable();
+        shares.dedup();
+        // A patch that is there or not has two.
+        assert!(shares.len() > 8, "{shares:?}");
+    }
+}

@@ -27,13 +27,12 @@ fn vtex_composite_draw(
     covered: u32, tag: u32,
 ) -> VtexComposite {
     var next = composite;
-    if (covered & composite.live) != 0u {
+    if vtex_brush_covered(vt, samples, tag, covered & composite.live) != 0u {
         let brush = vtex_brush(vt, lookup, tag, samples.uv);
         if brush.encoded.a > 0.0 {
             next.count += 1u;
             next.only = brush.linear;
             next.color += (1.0 - composite.color.a) * brush.encoded;
-            // An opaque image shows nothing, and hides nothing, outside its rectangle.
             let ends = next.color.a >= 1.0 || (tag & VTEX_CMD_OPAQUE_BIT) != 0u;
             next.live = select(composite.live, 0u, ends);
         }

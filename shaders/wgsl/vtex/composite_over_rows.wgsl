@@ -37,7 +37,7 @@ fn vtex_composite_draw(
     vt: VtexTexture, lookup: VtexLookup, composite: VtexComposite, samples: VtexSamples,
     covered: u32, tag: u32,
 ) -> VtexComposite {
-    let met = covered & composite.live;
+    let met = vtex_brush_covered(vt, samples, tag, covered & composite.live);
     if met == 0u {
         return composite;
     }
@@ -50,8 +50,7 @@ fn vtex_composite_draw(
     }
     var next = composite;
     let leads = (met & (~composite.live + 1u)) != 0u;
-    // An opaque image shows nothing, and hides nothing, outside its rectangle.
-    let opaque = (tag & VTEX_CMD_OPAQUE_BIT) != 0u && brush.encoded.a > 0.0;
+    let opaque = (tag & VTEX_CMD_OPAQUE_BIT) != 0u;
     if opaque || (leads && seen.color.a >= 1.0) {
         if met == composite.live {
             next.live = 0u;

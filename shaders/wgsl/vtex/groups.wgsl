@@ -64,8 +64,10 @@ fn vtex_groups(
                     i += over;
                 }
             } else {
-                same &= select(~covered, covered, leads);
-                if leads {
+                let drawn = vtex_brush_covered(vt, samples, command.w, covered);
+                let shows = (drawn & leader) != 0u;
+                same &= select(~drawn, drawn, shows);
+                if shows {
                     let uv = vtex_samples_uv(samples, same);
                     let brush = vtex_brush(vt, lookup, command.w, uv).encoded;
                     stack.color = brush + (1.0 - brush.a) * stack.color;

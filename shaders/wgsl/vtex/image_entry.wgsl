@@ -4,15 +4,18 @@
 //!use vtex/image
 // Raster images that entries show.
 
-// A patch that stands for what is not vector: nothing outside its rectangle.
+// In uv: left, upper, right and lower side.
+fn vtex_image_entry_rect(vt: VtexTexture, index: u32) -> vec4f {
+    return vtex_word_float4(vt, vt.images + index * VTEX_IMAGE_WORDS + VTEX_IMAGE_RECT_UV);
+}
+
+// Of a patch that stands for what is not vector, or an image of the drawing, at a place inside its
+// rectangle.
 fn vtex_image_entry(vt: VtexTexture, lookup: VtexLookup, index: u32, uv: vec2f) -> vec4f {
     let record = vt.images + index * VTEX_IMAGE_WORDS;
-    let rect = vtex_word_float4(vt, record + VTEX_IMAGE_RECT_UV);
+    let rect = vtex_image_entry_rect(vt, index);
     let size = rect.zw - rect.xy;
-    let t = (uv - rect.xy) / size;
-    if any(t < vec2f(0.0)) || any(t > vec2f(1.0)) {
-        return vec4f(0.0);
-    }
+    let t = clamp((uv - rect.xy) / size, vec2f(0.0), vec2f(1.0));
     let about = vtex_word4(vt, record + VTEX_IMAGE_SIZE);
     let texels_per_cell = f32(about.x) / (size.x * vt.cell_from_uv.x);
     let region = vtex_image_region(lookup.axes, texels_per_cell);

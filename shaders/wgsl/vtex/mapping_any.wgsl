@@ -1,6 +1,7 @@
 //!use core/layout
 //!use vtex/texture
 //!use vtex/settings
+//!use vtex/mapping_inset
 // From the place that a lookup names to the place on the canvas: texture matrix, then address modes.
 
 fn vtex_mapping_linear(vt: VtexTexture, v: vec2f) -> vec2f {
@@ -31,14 +32,18 @@ fn vtex_mapping_axis(t: f32, mode: u32) -> f32 {
             let turn = t - 2.0 * floor(t * 0.5);
             return select(turn, 2.0 - turn, turn > 1.0);
         }
+        // Clamped in any mode.
         default: {
-            return clamp(t, 0.0, 1.0);
+            return t;
         }
     }
 }
 
 fn vtex_mapping_address(vt: VtexTexture, uv: vec2f) -> vec2f {
-    return vec2f(vtex_mapping_axis(uv.x, vt.address.x), vtex_mapping_axis(uv.y, vt.address.y));
+    let inset = vtex_mapping_inset(vt);
+    let u = vtex_mapping_axis(uv.x, vt.address.x);
+    let v = vtex_mapping_axis(uv.y, vt.address.y);
+    return clamp(vec2f(u, v), inset, 1.0 - inset);
 }
 
 fn vtex_mapping_axis_outside(t: f32, mode: u32) -> bool {

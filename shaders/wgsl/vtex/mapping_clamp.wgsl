@@ -1,4 +1,5 @@
 //!use vtex/texture
+//!use vtex/mapping_inset
 // No texture matrix, and the address mode clamp along both axes.
 
 fn vtex_mapping_point(vt: VtexTexture, uv: vec2f) -> vec2f {
@@ -10,7 +11,8 @@ fn vtex_mapping_axes(vt: VtexTexture, axes: vec4f) -> vec4f {
 }
 
 fn vtex_mapping_address(vt: VtexTexture, uv: vec2f) -> vec2f {
-    return clamp(uv, vec2f(0.0), vec2f(1.0));
+    let inset = vtex_mapping_inset(vt);
+    return clamp(uv, inset, 1.0 - inset);
 }
 
 fn vtex_mapping_outside(vt: VtexTexture, uv: vec2f) -> bool {

@@ -38,7 +38,10 @@ fn vtex_paper(
                 inner = vtex_paper_ramp(vt, distance);
                 outer = select(0.0, vtex_paper_ramp(vt, distance + width), width > 0.0);
             } else {
-                let covered = vtex_edge_covered(vt, samples, command, winding, 1u);
+                var covered = vtex_edge_covered(vt, samples, command, winding, 1u);
+                if (command.w & VTEX_CMD_CONTROL_BIT) == 0u {
+                    covered = vtex_brush_covered(vt, samples, command.w, covered);
+                }
                 inner = select(0.0, 1.0, (covered & 1u) != 0u);
             }
             winding = VtexWinding();

@@ -1,10 +1,12 @@
 //!use core/layout
 //!use vtex/texture
 //!use vtex/settings
+//!use vtex/mapping_inset
 //!use vtex/lookup
 //!use vtex/cell
 //!use vtex/samples
 //!use vtex/resolved
+//!use vtex/paint
 //!use vtex/lists
 // The mean of what the cells show to a footprint's samples. Each pass takes the samples in one cell of
 // the packed words, or in a square around it that shows the same, or those beyond one side of the
@@ -17,6 +19,62 @@ const VTEX_PICTURE_OVERLAP: f32 = f32(VTEX_CELL_OVERLAP) / 16.0;
 // What of its side a cell's clearance is counted in.
 const VTEX_PICTURE_PART: f32 = 1.0 / f32(VTEX_CELL_CLEARANCE_PARTS);
 
+// A footprint and the canvas, in cells, from the corner of the cell that the lookup's place lies in.
+struct VtexPictureCanvas {
+    // That corner.
+    home: vec2f,
+    centre: vec2f,
+    // No sample lies farther from the centre.
+    extent: vec2f,
+    // As far as samples count.
+    low: vec2f,
+    high: vec2f,
+}
+
+struct VtexPicturePass {
+    word: u32,
+    // The corner of the file's cell.
+    cell: vec2f,
+    // The samples between these take it.
+    low: vec2f,
+    high: vec2f,
+    // All samples do: no need to look for them.
+    whole: bool,
+    // They lie beyond the canvas.
+    beyond: bool,
+}
+
+// The pass for what lies at `place`.
+fn vtex_picture_pass(vt: VtexTexture, canvas: VtexPictureCanvas, place: vec2f) -> VtexPicturePass {
+    let found = vtex_cell(vt, place + canvas.home);
+    let side = vtex_cell_side(found);
+    let word = found.word;
+    let corner = found.at * side - canvas.home;
+    let cell = vtex_cell_corner(vt, place + canvas.home) - canvas.home;
+    // A list serves what is near, as far as its cell of the file goes.
+    let listed = (word >> VTEX_CELL_TAG_SHIFT) >= VTEX_CELL_LIST;
+    let clearance = f32(bitcast<i32>((word >> VTEX_CELL_CLEARANCE_SHIFT) & VTEX_CELL_CLEARANCE_MASK));
+    let around = select(clearance * VTEX_PICTURE_PART, VTEX_PICTURE_OVERLAP, listed) * side;
+    let bounds_low = select(canvas.low, max(canvas.low, cell), vec2<bool>(listed));
+    let bounds_high = select(canvas.high, min(canvas.high, cell + 1.0), vec2<bool>(listed));
+    let low = max(corner - around, bounds_low);
+    let high = min(corner + around + side, bounds_high);
+    let whole = all(low <= canvas.centre - canvas.extent) && all(canvas.centre + canvas.extent < high);
+    let before = place < canvas.low;
+    let behind = place >= canvas.high;
+    let beyond = any(before) || any(behind);
+    let beyond_low = select(vec2f(-VTEX_PICTURE_FAR), canvas.high, behind);
+    let beyond_high = select(vec2f(VTEX_PICTURE_FAR), canvas.low, before);
+    return VtexPicturePass(
+        word,
+        cell,
+        select(low, beyond_low, vec2<bool>(beyond)),
+        select(high, beyond_high, vec2<bool>(beyond)),
+        whole,
+        beyond,
+    );
+}
+
 // Linear light, premultiplied.
 fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
     // Of a scene's textures some may be looked up in points.
@@ -24,46 +82,36 @@ fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
     let p = lookup.uv * vt.cell_from_uv.xy + vt.cell_from_uv.zw;
     let home = floor(p);
     let centre = p - home;
-    let extent = vtex_rows_extent(axes);
+    // As far as places are kept inside it.
+    let inset = vtex_mapping_inset(vt) * vt.cell_from_uv.xy;
+    let low = vt.cell_from_uv.zw + inset - home;
+    let high = vt.cell_from_uv.xy - 2.0 * inset + low;
+    var canvas = VtexPictureCanvas(home, centre, vtex_rows_extent(axes), low, high);
+    var here = vtex_picture_pass(vt, canvas, centre);
+    // Most footprints lie in one paint.
+    let tag = here.word >> VTEX_CELL_TAG_SHIFT;
+    if here.whole && tag < VTEX_CELL_LIST {
+        if tag == VTEX_CELL_SOLID {
+            return vtex_paint_linear(vt, here.word & VTEX_CELL_PAINT_MASK, lookup.uv);
+        }
+        return vec4f(0.0);
+    }
     var rows = vtex_rows(centre, axes, vtex_rows_phase(p, axes));
-    var canvas_low = vt.cell_from_uv.zw - home;
-    var canvas_high = vt.cell_from_uv.xy + canvas_low;
     var sum = vec4f(0.0);
     var count = 0.0;
     var live = VTEX_SAMPLES_EVERY;
-    var place = centre;
     var own = 0u;
     for (var i = 0u; i <= VTEX_ROWS_SAMPLES; i += 1u) {
-        let found = vtex_cell(vt, place + home);
-        let side = vtex_cell_side(found);
-        let word = found.word;
-        let tag = word >> VTEX_CELL_TAG_SHIFT;
-        let corner = found.at * side - home;
-        let cell = vtex_cell_corner(vt, place + home) - home;
-        // A list serves what is near, as far as its cell of the file goes.
-        let listed = tag >= VTEX_CELL_LIST;
-        let clearance = f32(bitcast<i32>((word >> VTEX_CELL_CLEARANCE_SHIFT) & VTEX_CELL_CLEARANCE_MASK));
-        let around = select(clearance * VTEX_PICTURE_PART, VTEX_PICTURE_OVERLAP, listed) * side;
-        let bounds_low = select(canvas_low, max(canvas_low, cell), vec2<bool>(listed));
-        let bounds_high = select(canvas_high, min(canvas_high, cell + 1.0), vec2<bool>(listed));
-        var low = max(corner - around, bounds_low);
-        var high = min(corner + around + side, bounds_high);
-        // All samples are in one square: no need to look for them.
-        let whole = all(low <= centre - extent) && all(centre + extent < high);
-        let before = place < canvas_low;
-        let behind = place >= canvas_high;
-        let beyond = any(before) || any(behind);
-        low = select(low, select(vec2f(-VTEX_PICTURE_FAR), canvas_high, behind), vec2<bool>(beyond));
-        high = select(high, select(vec2f(VTEX_PICTURE_FAR), canvas_low, before), vec2<bool>(beyond));
-        high.y = select(high.y, low.y, whole);
+        let high = vec2f(here.high.x, select(here.high.y, here.low.y, here.whole));
         // Rounding must not leave out the one that the pass is for.
-        var mask = (vtex_rows_within(rows, low, high) | own) & live;
-        mask = select(mask, live, whole);
-        let samples = vtex_samples_of_rows(vt, lookup, rows, cell, centre);
-        let resolved = vtex_lists(vt, lookup, select(word, VTEX_CELL_EMPTY, beyond), samples, mask);
-        let done = select(resolved.done, mask, beyond);
+        var mask = (vtex_rows_within(rows, here.low, high) | own) & live;
+        mask = select(mask, live, here.whole);
+        let samples = vtex_samples_of_rows(vt, lookup, rows, here.cell, centre);
+        let word = select(here.word, VTEX_CELL_EMPTY, here.beyond);
+        let resolved = vtex_lists(vt, lookup, word, samples, mask);
+        let done = select(resolved.done, mask, here.beyond);
         sum += resolved.sum;
-        count += select(vtex_resolved_count(done), 0.0, beyond);
+        count += select(vtex_resolved_count(done), 0.0, here.beyond);
         live &= ~done;
         if live == 0u {
             if count > 0.0 {
@@ -71,13 +119,13 @@ fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
             }
             // None is on the canvas: the lookup's own place stands for all.
             rows = vtex_rows(centre, vec4f(0.0), VtexRowsPhase());
-            canvas_low = vec2f(-VTEX_PICTURE_FAR);
-            canvas_high = vec2f(VTEX_PICTURE_FAR);
+            canvas.low = vec2f(-VTEX_PICTURE_FAR);
+            canvas.high = vec2f(VTEX_PICTURE_FAR);
             live = VTEX_SAMPLES_EVERY;
         }
         let next = firstTrailingBit(live);
         own = 1u << next;
-        place = vtex_rows_place(rows, next);
+        here = vtex_picture_pass(vt, canvas, vtex_rows_place(rows, next));
     }
     return sum / max(count, 1.0);
 }

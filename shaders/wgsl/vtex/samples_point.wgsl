@@ -36,6 +36,12 @@ fn vtex_samples_filled(winding: VtexWinding, tag: u32) -> u32 {
     return select(0u, 1u, filled);
 }
 
+// The samples in a box, in uv: its corner of least coordinates, then the other.
+fn vtex_samples_within(vt: VtexTexture, samples: VtexSamples, box: vec4f) -> u32 {
+    let inside = all(samples.uv >= box.xy) && all(samples.uv <= box.zw);
+    return select(0u, VTEX_SAMPLES_EVERY, inside);
+}
+
 // The mean of samples, in uv.
 fn vtex_samples_uv(samples: VtexSamples, mask: u32) -> vec2f {
     return samples.uv;

@@ -48,6 +48,9 @@ const VTEX_SAMPLES_EVERY: u32 = VTEX_ROWS_EVERY;
 
 // A row and a column are no smaller, in cells.
 const VTEX_ROWS_LEAST: f32 = 1e-12;
+// How far a box may reach beyond its sides, in cells: as much as rounding may take. A canvas ends where
+// an image that fills it does.
+const VTEX_ROWS_SLACK: f32 = 1e-6;
 // The samples of a row, and the columns that they lie in (docs/decisions/0016).
 const VTEX_ROWS_ROW: vec4f = vec4f(0.0, 1.0, 2.0, 3.0);
 const VTEX_ROWS_COLUMN: vec4f = vec4f(2.0, 0.0, 3.0, 1.0);
@@ -269,6 +272,13 @@ fn vtex_samples_uv(samples: VtexSamples, mask: u32) -> vec2f {
         down * f32(VTEX_ROWS_COLUMNS) * rows.dy,
     );
     return samples.uv + mean * samples.uv_per_cell;
+}
+
+// The samples in a box, in uv: its corner of least coordinates, then the other.
+fn vtex_samples_within(vt: VtexTexture, samples: VtexSamples, box: vec4f) -> u32 {
+    let place = (samples.centre + samples.cell).xyxy;
+    let sides = place + (box - samples.uv.xyxy) * vt.cell_from_uv.xyxy;
+    return vtex_rows_within(samples.rows, sides.xy - VTEX_ROWS_SLACK, sides.zw + VTEX_ROWS_SLACK);
 }
 
 fn vtex_samples_q(samples: VtexSamples, index: u32) -> vec2f {

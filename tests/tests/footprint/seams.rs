@@ -349,3 +349,38 @@ fn no_footprint_is_too_large() {
     let leaks = FILTERS.map(|filter| Scene::leaks_of(&file, &queries, &options(filter)));
     assert_eq!(leaks, [[0; 2]; 2]);
 }
+
+/// A shape that ends with the canvas fills it to its sides, and colours what is beyond in clamp mode. Its
+/// coordinates are rounded to the curve lattice, on which the sides of the canvas need not lie.
+#[test]
+fn shapes_end_with_the_canvas() {
+    let canvases = [[100.0, 100.0], [97.3, 61.7], [31.0, 1000.1], [3.0, 7.0]];
+    for [width, height] in canvases {
+        let svg = format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {width} {height}'>\
+             <path d='M0 0H{width}V{height}H0z' fill='#f00'/>\
+             <path d='M{x} 0V{height}H{width}V0z' fill='#00f'/></svg>",
+            x = 0.41 * width,
+        );
+        let file = bake(
+            svg.as_bytes(),
+            &BakeConfig::default(),
+            &Resources::default(),
+        )
+        .unwrap();
+        let mut queries = Vec::new();
+        for place in [-0.5, -1e-4, 0.0, 1e-7, 0.3, 0.999_999_9, 1.0, 1.000_1, 1.5] {
+            for side in [-3.0, 0.0, 1.0, 1.2] {
+                for uv in [[place, side], [side, place]] {
+                    queries.extend([0.0, 1e-4, 0.01].map(|width| BatchQuery {
+                        uv,
+                        padding: [0.0; 2],
+                        footprint: [width, 0.0, 0.0, width],
+                    }));
+                }
+            }
+        }
+        let leaks = FILTERS.map(|filter| Scene::leaks_of(&file, &queries, &options(filter)));
+        assert_eq!(leaks, [[0; 2]; 2], "{width} x {height}");
+    }
+}

@@ -22,7 +22,8 @@ pub(crate) struct Args {
     /// Measure only these parts.
     #[arg(long, value_delimiter = ',')]
     pub(crate) only: Vec<Part>,
-    /// All tables of a graphics card (parts gpu, rays, parity and isa) in less than five minutes.
+    /// All tables of a graphics card (parts gpu, rays, parity, isa and load) in less than five
+    /// minutes.
     /// Refuses an adapter in software. Writes vtex-bench.md and vtex-bench.json unless --markdown
     /// and --json name other files.
     #[arg(long, conflicts_with = "only")]
@@ -34,8 +35,8 @@ pub(crate) struct Args {
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) rounds: Option<u16>,
     /// Lookups per run on the GPU, in units of 2^18 (one window of 512 x 512) [default: 4; with
-    /// --card 16].
-    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=16))]
+    /// --card 64].
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) windows: Option<u16>,
     /// Chips that the part isa compiles for: `own`, the machine's own by its own driver, and any of
     /// AMD's by the names of `RADV_FORCE_FAMILY`, which takes Mesa's RADV but no such chip.
@@ -64,7 +65,7 @@ pub(crate) enum Part {
     Bake,
     /// Lookups by the CPU twin.
     Cpu,
-    /// Lookups on the GPU.
+    /// Lookups on the GPU, beside the raster in RGBA8 and BC7 and beside a loop over outlines.
     Gpu,
     /// Rays of the path tracer.
     Rays,
@@ -77,6 +78,8 @@ pub(crate) enum Part {
     Isa,
     /// Bytes of each file and of its rivals.
     Sizes,
+    /// Bytes on the GPU and load times, of each file and of its rivals. Needs no graphics card.
+    Load,
     /// Whole processes: `vtex bake`, which must be built in the same folder as this program, and
     /// resvg to a PNG. Not part of the default.
     Processes,
@@ -86,7 +89,8 @@ impl Args {
     /// Whether the command line asks for a part.
     pub(crate) fn wants(&self, part: Part) -> bool {
         if self.card {
-            return matches!(part, Part::Gpu | Part::Rays | Part::Parity | Part::Isa);
+            let about_gpus = [Part::Gpu, Part::Rays, Part::Parity, Part::Isa, Part::Load];
+            return about_gpus.contains(&part);
         }
         match self.only.is_empty() {
             true => part != Part::Processes,

@@ -22,10 +22,12 @@ use crate::timing::{Device, Effort, Machine};
 /// How much of a run with `--card` has passed when the part begins no more files: less than five
 /// minutes in all, with time for the last file.
 const PARITY_ENDS: Duration = Duration::from_secs(120);
-const LOOKUPS_END: Duration = Duration::from_secs(200);
-const RAYS_END: Duration = Duration::from_secs(260);
+const LOOKUPS_END: Duration = Duration::from_secs(170);
+const ANSWERS_END: Duration = Duration::from_secs(200);
+const RAYS_END: Duration = Duration::from_secs(250);
+const LOADS_END: Duration = Duration::from_secs(270);
 /// Graphics cards take a while to raise their clock.
-const CARD_WARM_UP: Duration = Duration::from_millis(150);
+const CARD_WARM_UP: Duration = Duration::from_millis(100);
 
 fn main() -> Result<()> {
     let args = Args::parse();
@@ -65,7 +67,7 @@ fn main() -> Result<()> {
 
 fn effort(args: &Args) -> Effort {
     let [rounds, windows] = match args.card {
-        true => [7, 16],
+        true => [7, 64],
         false => [5, 4],
     };
     Effort {
@@ -105,7 +107,7 @@ impl Run {
         if self.args.wants(Part::Isa) {
             self.instruction_sets(report)?;
         }
-        let lookups = [Part::Cpu, Part::Gpu, Part::Rays, Part::Parity];
+        let lookups = [Part::Cpu, Part::Gpu, Part::Rays, Part::Parity, Part::Load];
         if !lookups.map(|part| self.args.wants(part)).contains(&true) {
             return Ok(());
         }
@@ -116,10 +118,13 @@ impl Run {
         if self.args.wants(Part::Cpu) {
             self.twin(&subjects, report)?;
         }
-        match device {
-            Some(device) => self.gpu(device, &subjects, report),
-            None => Ok(()),
+        if let Some(device) = device {
+            self.gpu(device, &subjects, report)?;
         }
+        if self.args.wants(Part::Load) {
+            report.add(tables::load_table(&subjects, self.until(LOADS_END))?)?;
+        }
+        Ok(())
     }
 
     fn bakes(&self, report: &mut Report) -> Result<()> {
@@ -170,6 +175,8 @@ impl Run {
             report.add(tables::minified_table(device, effort)?)?;
             report.add(tables::fetch_table(device, effort)?)?;
             report.add_all(tables::gpu_tables(device, subjects, effort)?)?;
+            let effort = self.until(ANSWERS_END);
+            report.add(tables::answers_table(device, subjects, effort)?)?;
         }
         if self.args.wants(Part::Rays) {
             let effort = self.until(RAYS_END);

@@ -59,11 +59,9 @@ impl Embedded {
         if matches!(image.kind(), ImageKind::SVG(_)) {
             return None;
         }
-        let [a, b, c, d, ..] = subtree.canvas_from_parent.as_coeffs();
-        let least = a.abs().min(d.abs());
-        let upright = least > 0.0 && b.abs().max(c.abs()) <= UPRIGHT * least;
+        let [a, _, _, d, ..] = subtree.canvas_from_parent.as_coeffs();
         let size = [image.size().width(), image.size().height()];
-        if !upright || size.iter().any(|side| !(1.0..=32_768.0).contains(side)) {
+        if !is_upright(subtree) || size.iter().any(|side| !(1.0..=32_768.0).contains(side)) {
             return None;
         }
         let size = size.map(|side| side as u32);
@@ -138,6 +136,13 @@ impl Embedded {
             element: subtree.element.clone(),
         })
     }
+}
+
+/// Whether the image's axes are those of the canvas.
+pub(super) fn is_upright(subtree: &Subtree<'_>) -> bool {
+    let [a, b, c, d, ..] = subtree.canvas_from_parent.as_coeffs();
+    let least = a.abs().min(d.abs());
+    least > 0.0 && b.abs().max(c.abs()) <= UPRIGHT * least
 }
 
 /// For each item the embedded image, if it is one that keeps its texels.
@@ -253,6 +258,12 @@ mod tests {
         let file = baked(&image("width='60' height='40' transform='rotate(10)'"));
         let warnings = &file.provenance.as_ref().unwrap().warnings;
         assert_eq!(warnings.len(), 1, "{warnings:?}");
+        let message = &warnings[0].message;
+        assert!(
+            message.ends_with("texels: it is rotated or skewed"),
+            "{message}"
+        );
+        assert!(warnings[0].area > 0.1, "{warnings:?}");
     }
 
     #[test]

@@ -6,6 +6,7 @@
 
 mod density;
 mod embedded;
+mod reason;
 mod resvg;
 mod skia;
 mod window;
@@ -58,7 +59,7 @@ pub(crate) fn resolve(
     let mut place = Vec::with_capacity(painted.len());
     let mut coarse = false;
     for outcome in painted {
-        if let Outcome::Patch(_, density) = outcome {
+        if let Outcome::Patch(_, density, _) = outcome {
             coarse |= density < settings.wanted_density();
         }
         let next = u32::try_from(items.len()).ok();
@@ -76,8 +77,8 @@ pub(crate) fn resolve(
 enum Outcome {
     /// An item that needs no warning: geometry or an embedded image.
     Item(Item),
-    /// A patch and its density.
-    Patch(ImageItem, f64),
+    /// A patch, its density, and why it is no geometry.
+    Patch(ImageItem, f64, &'static str),
     /// Nothing: all of it is transparent.
     Nothing,
     /// resvg failed on this feature of this element.
@@ -115,7 +116,7 @@ impl Outcome {
             element: &subtree.element,
         };
         match window.patch(pixmap, source) {
-            Some(patch) => Self::Patch(patch, density),
+            Some(patch) => Self::Patch(patch, density, reason::of(subtree)),
             None => Self::Nothing,
         }
     }
@@ -124,8 +125,8 @@ impl Outcome {
     fn into_item(self, canvas_size: [f64; 2], warnings: &Warnings) -> Option<Item> {
         match self {
             Self::Item(item) => Some(item),
-            Self::Patch(patch, _) => {
-                warnings.add(patch_warning(&patch, canvas_size));
+            Self::Patch(patch, _, reason) => {
+                warnings.add(patch_warning(&patch, reason, canvas_size));
                 Some(Item::Image(patch))
             }
             Self::Nothing => None,
@@ -182,13 +183,13 @@ pub(crate) fn whole_canvas(
     (patch, coarse.then(coarse_warning))
 }
 
-fn patch_warning(patch: &ImageItem, canvas_size: [f64; 2]) -> Warning {
+fn patch_warning(patch: &ImageItem, reason: &str, canvas_size: [f64; 2]) -> Warning {
     let (feature, [width, height]) = (&patch.feature, patch.image.size);
     Warning {
         code: WarningCode::RasterPatch,
         feature: feature.clone(),
         element: patch.element.clone(),
-        message: format!("{feature} is stored as a raster of {width} x {height} texels"),
+        message: format!("{feature} is stored as a raster of {width} x {height} texels: {reason}"),
         area: patch.area(canvas_size),
     }
 }

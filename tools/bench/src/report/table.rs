@@ -23,6 +23,11 @@ pub(crate) enum Cell {
 }
 
 impl Cell {
+    /// Where there is nothing to measure.
+    pub(crate) fn none() -> Self {
+        Self::Text("-".to_owned())
+    }
+
     fn to_markdown(&self) -> String {
         match self {
             Self::Text(text) => text.replace('|', "\\|"),

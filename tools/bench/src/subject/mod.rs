@@ -1,11 +1,14 @@
 //! One SVG file to measure with: baked, and as the raster texture that it replaces.
 
+mod bands;
+mod bc7;
+pub(crate) mod ktx2;
 mod raster;
 mod rasterise;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use anyhow::{Context as _, Result};
 use vtex_baker::{BakeConfig, Resources};
@@ -16,8 +19,12 @@ use vtex_testing::corpus;
 
 use crate::timing::{QuerySet, Screen};
 
+use bands::Bands;
+use bc7::{BC7_SIDE_MULTIPLE, Bc7};
+
+pub(crate) use bc7::BC7_SIZES;
 pub(crate) use raster::{CpuRaster, RASTER_SIZE, halves_kernel, hardware_kernel, synthetic};
-pub(crate) use rasterise::{parse, rasterise, render};
+pub(crate) use rasterise::{parse, rasterise, rasterise_in_blocks, render};
 
 /// Points along each side of a window at which its cost is probed.
 const PROBES: u16 = 24;
@@ -36,8 +43,12 @@ pub(crate) struct Subject {
     pub(crate) name: String,
     /// Baked with the defaults.
     pub(crate) file: VtexFile,
-    /// The same drawing with mips at [`RASTER_SIZE`].
+    /// The same drawing with mips at [`RASTER_SIZE`], its sides rounded for BC7.
     pub(crate) raster: Image,
+    /// Its outlines for the loop over curves of bands.
+    pub(crate) bands: Bands,
+    /// Made when a table asks for it.
+    bc7: OnceLock<Bc7>,
     screen: Screen,
     busy_corner: [f32; 2],
 }
@@ -47,14 +58,18 @@ impl Subject {
     pub(crate) fn bake(path: &Path, resources: &Resources) -> Result<Self> {
         let name = name(path);
         let file = bake(path, resources)?;
-        let raster = rasterise(&read(path)?, resources, RASTER_SIZE)
-            .with_context(|| format!("cannot rasterise {name}"))?;
+        let fail = || format!("cannot rasterise {name}");
+        let tree = parse(&read(path)?, resources).with_context(fail)?;
+        let raster =
+            rasterise_in_blocks(&tree, RASTER_SIZE, BC7_SIDE_MULTIPLE).with_context(fail)?;
         let screen = Screen::new(file.meta.canvas_size);
         let busy_corner = busiest(&file, screen);
         Ok(Self {
             name,
             file,
             raster,
+            bands: Bands::of(&tree),
+            bc7: OnceLock::new(),
             screen,
             busy_corner,
         })
@@ -69,6 +84,11 @@ impl Subject {
             self.screen.whole(lookups),
             self.screen.scattered(lookups),
         ]
+    }
+
+    /// The raster in BC7.
+    pub(crate) fn bc7(&self) -> &Bc7 {
+        self.bc7.get_or_init(|| Bc7::encode(&self.raster))
     }
 
     /// Packed words.

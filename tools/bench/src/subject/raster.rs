@@ -57,7 +57,32 @@ fn halved(finer: &[u8], side: u32) -> Vec<u8> {
 
 /// The image as an sRGB texture with all its levels behind a trilinear sampler.
 pub(crate) fn hardware_kernel(device: &Device, image: &Image) -> Kernel {
-    let texture = upload(device, image);
+    let texels = TexelBlocks {
+        format: wgpu::TextureFormat::Rgba8UnormSrgb,
+        side: 1,
+        bytes: 4,
+    };
+    texture_kernel(device, texels, image.size, &image.mips)
+}
+
+/// How a texture's levels lie in memory: in square blocks of texels, row by row.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TexelBlocks {
+    pub(crate) format: wgpu::TextureFormat,
+    /// Texels along a block.
+    pub(crate) side: u32,
+    /// Bytes of a block.
+    pub(crate) bytes: u32,
+}
+
+/// A texture with `levels` behind a trilinear sampler.
+pub(crate) fn texture_kernel(
+    device: &Device,
+    blocks: TexelBlocks,
+    size: [u32; 2],
+    levels: &[Vec<u8>],
+) -> Kernel {
+    let texture = upload(device, blocks, size, levels);
     let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
     let sampler = device.device.create_sampler(&wgpu::SamplerDescriptor {
         mag_filter: wgpu::FilterMode::Linear,
@@ -70,39 +95,41 @@ pub(crate) fn hardware_kernel(device: &Device, image: &Image) -> Kernel {
     device.kernel(include_str!("../wgsl/hardware.wgsl"), &[view, sampler])
 }
 
-fn upload(device: &Device, image: &Image) -> wgpu::Texture {
-    let [width, height] = image.size;
+fn upload(
+    device: &Device,
+    blocks: TexelBlocks,
+    size: [u32; 2],
+    levels: &[Vec<u8>],
+) -> wgpu::Texture {
+    let extent = |[width, height]: [u32; 2]| wgpu::Extent3d {
+        width,
+        height,
+        depth_or_array_layers: 1,
+    };
     let texture = device.device.create_texture(&wgpu::TextureDescriptor {
         label: None,
-        size: wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: Image::level_count(image.size),
+        size: extent(size),
+        mip_level_count: Image::level_count(size),
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba8UnormSrgb,
+        format: blocks.format,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
-    for (level, texels) in (0..).zip(&image.mips) {
-        let [width, height] = Image::level_size(image.size, level);
+    for (level, bytes) in (0..).zip(levels) {
+        // A copy takes whole blocks, also of a level that is smaller than one.
+        let size = Image::level_size(size, level).map(|side| side.next_multiple_of(blocks.side));
         let target = wgpu::TexelCopyTextureInfo {
             mip_level: level,
             ..texture.as_image_copy()
         };
         let layout = wgpu::TexelCopyBufferLayout {
             offset: 0,
-            bytes_per_row: Some(4 * width),
+            bytes_per_row: Some(blocks.bytes * (size[0] / blocks.side)),
             rows_per_image: None,
         };
-        let size = wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: 1,
-        };
-        device.queue.write_texture(target, texels, layout, size);
+        let size = extent(size);
+        device.queue.write_texture(target, bytes, layout, size);
     }
     texture
 }

@@ -18,6 +18,18 @@ pub(crate) fn rasterise(svg: &[u8], resources: &Resources, longer_side: u32) -> 
     Ok(with_mips([pixmap.width(), pixmap.height()], &pixmap))
 }
 
+/// As [`rasterise`], with both sides rounded to a multiple of `multiple`: the drawing is stretched
+/// by less than that many texels.
+pub(crate) fn rasterise_in_blocks(
+    tree: &usvg::Tree,
+    longer_side: u32,
+    multiple: u32,
+) -> Result<Image> {
+    let size = size_for(tree, longer_side)
+        .map(|side| (side + multiple / 2).max(multiple) / multiple * multiple);
+    Ok(with_mips(size, &render_at(tree, size)?))
+}
+
 /// Parses the SVG as resvg does, with the fonts that a bake chooses and without outside images.
 pub(crate) fn parse(svg: &[u8], resources: &Resources) -> Result<usvg::Tree> {
     let image_href_resolver = usvg::ImageHrefResolver {
@@ -37,14 +49,29 @@ pub(crate) fn parse(svg: &[u8], resources: &Resources) -> Result<usvg::Tree> {
 pub(crate) fn render(tree: &usvg::Tree, longer_side: u32) -> Result<Pixmap> {
     let canvas = tree.size();
     let scale = longer_side as f32 / canvas.width().max(canvas.height());
-    let size = [canvas.width(), canvas.height()].map(|side| texels(side * scale));
-    let mut pixmap = Pixmap::new(size[0], size[1]).context("no room for the raster")?;
-    resvg::render(
+    draw(tree, size_for(tree, longer_side), [scale, scale])
+}
+
+/// The picture stretched to `size`.
+fn render_at(tree: &usvg::Tree, size: [u32; 2]) -> Result<Pixmap> {
+    let canvas = [tree.size().width(), tree.size().height()];
+    draw(
         tree,
-        Transform::from_scale(scale, scale),
-        &mut pixmap.as_mut(),
-    );
+        size,
+        [0, 1].map(|axis| size[axis] as f32 / canvas[axis]),
+    )
+}
+
+fn draw(tree: &usvg::Tree, size: [u32; 2], [x, y]: [f32; 2]) -> Result<Pixmap> {
+    let mut pixmap = Pixmap::new(size[0], size[1]).context("no room for the raster")?;
+    resvg::render(tree, Transform::from_scale(x, y), &mut pixmap.as_mut());
     Ok(pixmap)
+}
+
+fn size_for(tree: &usvg::Tree, longer_side: u32) -> [u32; 2] {
+    let canvas = tree.size();
+    let scale = longer_side as f32 / canvas.width().max(canvas.height());
+    [canvas.width(), canvas.height()].map(|side| texels(side * scale))
 }
 
 #[expect(

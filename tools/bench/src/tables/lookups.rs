@@ -9,9 +9,13 @@ use vtex_shaders::layout::BatchQuery;
 use vtex_shaders::{BindingSlot, FilterMode, PackOptions, fragment, spec_key};
 
 use super::left_out;
+use super::rivals::nothing_kernel;
 use crate::report::{Cell, Table};
-use crate::subject::{CpuRaster, FILTERS, RASTER_SIZE, Subject, hardware_kernel};
+use crate::subject::{BC7_SIZES, CpuRaster, FILTERS, RASTER_SIZE, Subject, hardware_kernel};
 use crate::timing::{Device, Effort, Kernel, QuerySet, Timing, Trial, interleave};
+
+/// Lookups a run of what takes a software driver seconds.
+const FEW_LOOKUPS: usize = 1 << 18;
 
 /// One table for each query set. Rows are files, and the raster is the baseline.
 pub(crate) fn gpu_tables(
@@ -26,22 +30,68 @@ pub(crate) fn gpu_tables(
             rest = Some(left_out(&subjects[index..]));
             break;
         }
-        let mut kernels = vec![hardware_kernel(device, &subject.raster)];
-        kernels.extend(FILTERS.map(|(_, filter)| vtex_kernel(device, subject, filter)));
+        let kernels = gpu_kernels(device, subject);
         for set in subject.query_sets(effort.gpu_lookups) {
-            let batch = device.batch(&set);
-            let trials = kernels
+            let few = set.shorter(FEW_LOOKUPS);
+            let batches = [&set, &few].map(|set| (set.len(), device.batch(set)));
+            let trials = kernels.iter().flatten().map(|(kernel, kind)| {
+                let is_slow = *kind == Kind::SlowInSoftware && device.is_software();
+                let (lookups, batch) = &batches[usize::from(is_slow)];
+                Trial::timed(*lookups, || device.time(kernel, batch))
+            });
+            let mut timings = effort.interleave(trials.collect())?.into_iter();
+            let timings = kernels
                 .iter()
-                .map(|kernel| Trial::timed(set.len(), || device.time(kernel, &batch)));
-            rows.push((subject, set, effort.interleave(trials.collect())?));
+                .map(|kernel| kernel.as_ref().and_then(|_| timings.next()))
+                .collect();
+            rows.push((subject, set, timings));
         }
     }
-    let baseline = "sRGB8 with mips through the trilinear sampler";
-    let mut tables = tables("Lookups on the GPU", baseline, &rows);
+    let raster = "sRGB8 with mips through the trilinear sampler";
+    let about = match device.has_bc7() {
+        true => format!("{raster}; BC7: the same texels and sampler"),
+        false => format!("{raster}; BC7: this device has no such textures"),
+    };
+    let about = format!("{about}; bands: a loop over all shapes, without a grid");
+    let mut tables = tables("Lookups on the GPU", &about, &gpu_columns(device), &rows);
     for table in &mut tables {
         rest.iter().for_each(|rest| table.note(rest));
     }
     Ok(tables)
+}
+
+/// Names of what [`gpu_kernels`] returns; the first is the baseline.
+fn gpu_columns(device: &Device) -> Vec<String> {
+    let mut columns = vec![format!("raster {RASTER_SIZE}^2")];
+    columns.extend(FILTERS.map(|(name, _)| name.to_owned()));
+    if device.has_bc7() {
+        columns.extend(BC7_SIZES.map(|size| format!("BC7 {size}^2")));
+    }
+    columns.extend(["bands", "no texture"].map(str::to_owned));
+    columns
+}
+
+/// How a kernel fares without a graphics card.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Usual,
+    /// Software decodes a block of BC7 at each fetch, and goes through every shape for all lanes.
+    SlowInSoftware,
+}
+
+/// The filter modes and the rivals; `None` where a rival does not take this drawing.
+fn gpu_kernels(device: &Device, subject: &Subject) -> Vec<Option<(Kernel, Kind)>> {
+    let usual = |kernel| Some((kernel, Kind::Usual));
+    let slow = |kernel| (kernel, Kind::SlowInSoftware);
+    let mut kernels = vec![usual(hardware_kernel(device, &subject.raster))];
+    kernels.extend(FILTERS.map(|(_, filter)| usual(vtex_kernel(device, subject, filter))));
+    if device.has_bc7() {
+        let textures = 0..BC7_SIZES.len();
+        kernels.extend(textures.map(|first| Some(slow(subject.bc7().kernel(device, first)))));
+    }
+    kernels.push(subject.bands.kernel(device).map(slow));
+    kernels.push(usual(nothing_kernel(device)));
+    kernels
 }
 
 /// As [`gpu_tables`] for the twin on `threads` threads.
@@ -66,7 +116,8 @@ pub(crate) fn cpu_tables(
                     Ok(spread(queries, threads, sample))
                 }));
             }
-            rows.push((subject, set, interleave(trials, effort.rounds)?));
+            let timings = interleave(trials, effort.rounds)?;
+            rows.push((subject, set, timings.into_iter().map(Some).collect()));
         }
     }
     let title = match threads {
@@ -74,7 +125,9 @@ pub(crate) fn cpu_tables(
         _ => format!("Lookups by the CPU twin, {threads} cores"),
     };
     let baseline = "sRGB8 with mips, trilinear in Rust";
-    Ok(tables(&title, baseline, &rows))
+    let mut columns = vec![format!("raster {RASTER_SIZE}^2")];
+    columns.extend(FILTERS.map(|(name, _)| name.to_owned()));
+    Ok(tables(&title, baseline, &columns, &rows))
 }
 
 /// What lookups of the twin and of the GPU read, and what the texture takes.
@@ -126,7 +179,7 @@ pub(crate) fn count_table(subjects: &[Subject], effort: Effort) -> Table {
     table
 }
 
-fn vtex_kernel(device: &Device, subject: &Subject, filter: FilterMode) -> Kernel {
+pub(super) fn vtex_kernel(device: &Device, subject: &Subject, filter: FilterMode) -> Kernel {
     let words = subject.words(filter);
     let words = device.buffer(bytemuck::cast_slice(&words), wgpu::BufferUsages::STORAGE);
     let options = PackOptions {
@@ -168,36 +221,37 @@ fn spread(
     start.elapsed()
 }
 
-/// Timings of raster, point, footprint and paper for a file and query set.
-type Row<'a> = (&'a Subject, QuerySet, Vec<Timing>);
+/// Timings for a file and query set, one for each column; `None` where there is nothing to time.
+/// The first is the baseline.
+type Row<'a> = (&'a Subject, QuerySet, Vec<Option<Timing>>);
 
-fn tables(title: &str, baseline: &str, rows: &[Row<'_>]) -> Vec<Table> {
+fn tables(title: &str, raster: &str, names: &[String], rows: &[Row<'_>]) -> Vec<Table> {
     let mut tables: Vec<(&str, Table)> = Vec::new();
     for (subject, set, timings) in rows {
         let place = tables
             .iter()
             .position(|(name, _)| *name == set.name)
             .unwrap_or_else(|| {
-                let raster = format!("raster {RASTER_SIZE}^2");
-                let columns: Vec<&str> = ["million lookups/s", &raster]
-                    .into_iter()
-                    .chain(FILTERS.iter().map(|(name, _)| *name))
-                    .collect();
+                let mut columns = vec!["million lookups/s"];
+                columns.extend(names.iter().map(String::as_str));
                 let mut table = Table::new(format!("{title}, {}", set.name), &columns);
-                table.note(format!("{}; raster: {baseline}.", meaning(set.name)));
+                table.note(format!("{}; raster: {raster}.", meaning(set.name)));
                 tables.push((set.name, table));
                 tables.len() - 1
             });
         let mut cells = vec![Cell::Text(subject.name.clone())];
-        cells.extend(
-            timings
-                .iter()
-                .enumerate()
-                .map(|(index, timing)| Cell::Measured {
-                    value: timing.millions_a_second(),
-                    ratio: (index > 0).then(|| timing.speed_against(&timings[0])),
-                }),
-        );
+        let baseline = timings.first().and_then(Option::as_ref);
+        cells.extend(timings.iter().enumerate().map(|(index, timing)| {
+            let Some(timing) = timing else {
+                return Cell::none();
+            };
+            Cell::Measured {
+                value: timing.millions_a_second(),
+                ratio: baseline
+                    .filter(|_| index > 0)
+                    .map(|base| timing.speed_against(base)),
+            }
+        }));
         tables[place].1.row(cells);
     }
     tables.into_iter().map(|(_, table)| table).collect()
@@ -210,7 +264,7 @@ fn meaning(name: &str) -> &'static str {
             "Blocks of 64 x 64 pixels at 8x from everywhere on the canvas, in screen order"
         }
         "8x" => "The 512 x 512 pixels of the canvas' busiest part at 8x, in screen order",
-        "1x" => "The whole canvas in 512 pixels, in screen order (answered by mips)",
+        "1x" => "The whole canvas in 512 pixels, in screen order",
         _ => "Random points of the canvas with the footprint of a pixel at 8x",
     }
 }

@@ -1,6 +1,8 @@
 //! What is measured: one file for each table or group of tables.
 
+mod answers;
 mod isa;
+mod load;
 mod lookups;
 mod parity;
 mod processes;
@@ -10,7 +12,9 @@ mod sfg22;
 mod sizes;
 mod stages;
 
+pub(crate) use answers::answers_table;
 pub(crate) use isa::add_isa_tables;
+pub(crate) use load::load_table;
 pub(crate) use lookups::{count_table, cpu_tables, gpu_tables};
 pub(crate) use parity::parity_table;
 pub(crate) use processes::{process_tables, rasterise_to_png};

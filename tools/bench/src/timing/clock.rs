@@ -8,6 +8,11 @@ use std::time::{Duration, Instant};
 
 use anyhow::Result;
 
+/// A card's clock has settled when three runs of one trial are as close as this.
+const STEADY: f64 = 1.05;
+/// How many times the warm-up it may take. A clock that never settles shows in the ranges.
+const PATIENCE: u32 = 8;
+
 /// How often and on how much to measure.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Effort {
@@ -30,13 +35,22 @@ impl Effort {
             .is_some_and(|deadline| Instant::now() >= deadline)
     }
 
-    /// [`interleave`] after the warm-up.
+    /// [`interleave`] after the warm-up, which goes on while the first trial's time still changes.
     pub(crate) fn interleave(&self, mut trials: Vec<Trial<'_>>) -> Result<Vec<Timing>> {
         let start = Instant::now();
-        while start.elapsed() < self.warm_up {
+        let mut latest = [f64::INFINITY, 0.0, 0.0];
+        let is_steady = |latest: &[f64; 3]| {
+            let spread = Spread::of(latest.iter().copied());
+            spread.max <= STEADY * spread.min
+        };
+        while start.elapsed() < self.warm_up
+            || !is_steady(&latest) && start.elapsed() < PATIENCE * self.warm_up
+        {
+            let mut times = Vec::with_capacity(trials.len());
             for trial in &mut trials {
-                (trial.run)()?;
+                times.push((trial.run)()?.as_secs_f64());
             }
+            latest = [times.first().copied().unwrap_or(0.0), latest[0], latest[1]];
         }
         interleave(trials, self.rounds)
     }

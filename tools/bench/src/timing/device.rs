@@ -43,7 +43,7 @@ pub(crate) struct Kernel {
 pub(crate) struct Batch {
     queries: wgpu::Buffer,
     results: wgpu::Buffer,
-    workgroups: [u32; 3],
+    workgroups: [u32; 2],
 }
 
 impl Device {
@@ -81,6 +81,12 @@ impl Device {
     /// Whether the adapter is this machine's processor.
     pub(crate) fn is_software(&self) -> bool {
         self.info.device_type == wgpu::DeviceType::Cpu
+    }
+
+    /// Whether it has BC7 textures.
+    pub(crate) fn has_bc7(&self) -> bool {
+        let features = self.device.features();
+        features.contains(wgpu::Features::TEXTURE_COMPRESSION_BC)
     }
 
     /// Name and value, for people.
@@ -145,17 +151,26 @@ impl Device {
         }
     }
 
-    /// Room for the results of `set`.
+    /// Lookups to time, whose results nobody sees.
     pub(crate) fn batch(&self, set: &QuerySet) -> Batch {
+        self.batch_of(set, false)
+    }
+
+    /// Lookups with room for the results, 16 bytes each.
+    pub(crate) fn kept_batch(&self, set: &QuerySet) -> Batch {
+        self.batch_of(set, true)
+    }
+
+    fn batch_of(&self, set: &QuerySet, keeps: bool) -> Batch {
         let results = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
-            size: set.len() as u64 * 16,
+            size: if keeps { set.len() as u64 * 16 } else { 16 },
             usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         });
-        let record = bytemuck::bytes_of(&set.record);
+        let record = set.record(keeps);
         Batch {
-            queries: self.buffer(record, wgpu::BufferUsages::UNIFORM),
+            queries: self.buffer(bytemuck::bytes_of(&record), wgpu::BufferUsages::UNIFORM),
             results,
             workgroups: set.workgroups(),
         }
@@ -186,8 +201,8 @@ impl Device {
         pass.set_pipeline(&kernel.pipeline);
         pass.set_bind_group(0, &kernel.resources, &[]);
         pass.set_bind_group(1, &buffers, &[]);
-        let [x, y, z] = batch.workgroups;
-        pass.dispatch_workgroups(x, y, z);
+        let [x, y] = batch.workgroups;
+        pass.dispatch_workgroups(x, y, 1);
         drop(pass);
         if let Some(stamps) = &self.stamps {
             stamps.resolve(&mut encoder);
@@ -202,7 +217,7 @@ impl Device {
             .map_or(Ok(wall), |stamps| stamps.read(self))
     }
 
-    /// Results of the latest run over `batch`.
+    /// Results of the latest run over a batch of [`Self::kept_batch`].
     pub(crate) fn results(&self, batch: &Batch) -> Result<Vec<[f32; 4]>> {
         let size = batch.results.size();
         let readable = readable_buffer(&self.device, size);

@@ -13,6 +13,9 @@ const TILE_PX: u32 = 8;
 const BLOCK_TILES: u32 = 8;
 /// Along both axes one block out of this many is part of a frame of [`Screen::tour`].
 const TOUR_STRIDE: u32 = 8;
+/// Invocations of a workgroup, as `wgsl/root.wgsl` has them, and workgroups side by side.
+const WORKGROUP: u32 = 256;
+const GROUP_COLUMNS: u32 = 1024;
 /// Magnification of the close windows: a pixel is a texel of a 4096^2 raster.
 const CLOSE_ZOOM: f32 = 8.0;
 /// 176 of 512 pixels: level 1.54 of a 512-texel mip chain, so that two levels count.
@@ -23,12 +26,12 @@ const MINIFIED_ZOOM: f32 = 0.34375;
 pub(crate) struct QuerySet {
     /// Short, for a column.
     pub(crate) name: &'static str,
-    pub(crate) record: QueryRecord,
+    record: QueryRecord,
     /// How often each pixel is looked up, each time with another jitter.
     frames: u32,
 }
 
-/// Numbers from which query `i` follows, 32 bytes.
+/// Numbers from which query `i` follows, 40 bytes and 8 of padding.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct QueryRecord {
@@ -42,19 +45,43 @@ pub(crate) struct QueryRecord {
     scattered: u32,
     /// From block to block of [`BLOCK_TILES`] tiles, in blocks: 1 where they follow each other.
     stride: u32,
+    /// Filled in by [`QuerySet::record`]: the lookups of a run, and 1 if their results are written.
+    lookups: u32,
+    keeps: u32,
+    padding: [u32; 2],
 }
 
 impl QuerySet {
     /// Lookups of one run.
     pub(crate) fn len(&self) -> usize {
-        let [columns, rows, frames] = self.workgroups();
-        (columns * rows * frames * TILE_PX * TILE_PX) as usize
+        let [width, height] = self.record.size_px;
+        (width * height * self.frames) as usize
     }
 
-    /// One workgroup a tile and frame.
-    pub(crate) fn workgroups(&self) -> [u32; 3] {
-        let [columns, rows] = self.record.size_px.map(|side| side / TILE_PX);
-        [columns, rows, self.frames]
+    /// What kernels read: whether to write the results is the caller's to say.
+    pub(crate) fn record(&self, keeps: bool) -> QueryRecord {
+        QueryRecord {
+            lookups: u32::try_from(self.len()).unwrap_or(u32::MAX),
+            keeps: u32::from(keeps),
+            ..self.record
+        }
+    }
+
+    /// Enough workgroups for all lookups, and a few more: along an axis there may be 65,535.
+    pub(crate) fn workgroups(&self) -> [u32; 2] {
+        let count = u32::try_from(self.len())
+            .unwrap_or(u32::MAX)
+            .div_ceil(WORKGROUP);
+        let columns = count.min(GROUP_COLUMNS);
+        [columns, count.div_ceil(columns.max(1))]
+    }
+
+    /// The same pixels, no more than `most` lookups if one frame is no more.
+    pub(crate) fn shorter(mut self, most: usize) -> Self {
+        let pixels = self.len() / self.frames as usize;
+        let frames = u32::try_from(most / pixels.max(1)).unwrap_or(u32::MAX);
+        self.frames = self.frames.min(frames.max(1));
+        self
     }
 
     /// Width and height of the window in uv.
@@ -71,6 +98,7 @@ impl QuerySet {
             size_px,
             scattered,
             stride,
+            ..
         } = self.record;
         let seed = scramble(index);
         let jitter = [unit(seed), unit(scramble(seed ^ 0x9e37_79b9))];
@@ -181,6 +209,9 @@ impl Screen {
             size_px,
             scattered: 0,
             stride: 1,
+            lookups: 0,
+            keeps: 0,
+            padding: [0; 2],
         };
         let pixels = (size_px[0] * size_px[1]) as usize;
         let frames = u32::try_from(count / pixels).unwrap_or(u32::MAX).max(1);

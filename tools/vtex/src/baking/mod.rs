@@ -54,6 +54,39 @@ pub(crate) fn config(options: &BakeOptions) -> BakeConfig {
     }
 }
 
+/// As [`config`], checked.
+///
+/// # Errors
+/// The first option out of its range, by its name.
+pub(crate) fn checked_config(options: &BakeOptions) -> Outcome<BakeConfig> {
+    let config = config(options);
+    // The baker names its own options, not those of the command line: the one that it refuses
+    // while all others have their defaults is the one to name.
+    type Take = fn(&mut BakeConfig, &BakeConfig);
+    let options: [(&str, Take); 7] = [
+        ("--size", |to, from| to.mip0_size = from.mip0_size),
+        ("--msdf-size", |to, from| to.msdf_size = from.msdf_size),
+        ("--max-zoom", |to, from| to.max_zoom = from.max_zoom),
+        ("--error", |to, from| to.error_px = from.error_px),
+        ("--smoothing", |to, from| to.smoothing = from.smoothing),
+        ("--transform", |to, from| {
+            to.texture_matrix = from.texture_matrix;
+        }),
+        ("--outline", |to, from| {
+            (to.outline_texels, to.mode) = (from.outline_texels, from.mode);
+        }),
+    ];
+    for (name, take) in options {
+        let mut alone = BakeConfig::default();
+        take(&mut alone, &config);
+        alone
+            .check()
+            .map_err(|error| Failure::usage(format!("{name}: {error}")))?;
+    }
+    config.check().map_err(Failure::usage)?;
+    Ok(config)
+}
+
 /// Bakes the SVG read from `path` in this process, without limits on time and memory.
 ///
 /// # Errors

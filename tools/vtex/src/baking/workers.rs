@@ -106,11 +106,15 @@ impl Workers {
         let (code, text) = match death {
             Death::Time => (
                 ExitCode::Limit,
-                format!("limit exceeded: not baked within {timeout} s (--timeout)"),
+                format!(
+                    "limit exceeded: not baked within {timeout} s; --timeout SECONDS allows more"
+                ),
             ),
             Death::Memory => (
                 ExitCode::Limit,
-                format!("limit exceeded: needs more than {max_memory} MiB (--max-memory)"),
+                format!(
+                    "limit exceeded: needs more than {max_memory} MiB; --max-memory MIB allows more"
+                ),
             ),
             Death::Stack => (
                 ExitCode::Limit,

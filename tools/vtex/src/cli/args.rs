@@ -48,10 +48,13 @@ pub(crate) struct Global {
     /// Also print details of the work, and all warnings
     #[arg(short, long, global = true)]
     pub(crate) verbose: bool,
-    /// Number of threads; 0 uses one per core
-    #[arg(long, global = true, default_value_t = 0, value_name = "N")]
-    pub(crate) threads: usize,
+    /// Number of threads, at most 512; 0 uses one per core
+    #[arg(long, global = true, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=MAX_THREADS))]
+    pub(crate) threads: u16,
 }
+
+/// Most threads of a process. The start of 512 takes a second on two cores, of 1024 twenty.
+const MAX_THREADS: i64 = 512;
 
 /// What to do.
 #[derive(Debug, Subcommand)]
@@ -64,6 +67,7 @@ pub(crate) enum Command {
     /// Check .vtex files and print numbered issues
     Validate(Validate),
     /// Write a picture of a .vtex file as PNG
+    #[command(after_help = PREVIEWS)]
     Preview(Preview),
     /// Measure how far a .vtex file is from its SVG at several zooms
     #[command(after_help = METRICS)]
@@ -83,6 +87,14 @@ pub(crate) enum Command {
 const PROCESSES: &str = "Each file is baked in a separate process, at most --threads of them at a \
     time. A process that needs more time than --timeout or more memory than --max-memory is stopped: \
     its file fails with exit code 8, and the other files are still baked.";
+
+const PREVIEWS: &str = "\
+Examples:
+  The whole canvas, and a part of it:
+    vtex preview sign.vtex -o sign.png
+    vtex preview sign.vtex -o close.png --view 0.4,0.4,0.6,0.6
+  What an engine shows with one filtered lookup per pixel:
+    vtex preview sign.vtex -o sign.png --filter footprint --spp 1";
 
 const METRICS: &str = "The picture of the .vtex file is compared with the truth: the SVG as resvg \
     draws it without anti-aliasing, at 257 samples per pixel (256 for drawings with filters, patterns \
@@ -273,6 +285,17 @@ pub(crate) enum Filter {
     Paper,
 }
 
+impl Filter {
+    /// As the command line spells it.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Point => "point",
+            Self::Footprint => "footprint",
+            Self::Paper => "paper",
+        }
+    }
+}
+
 impl From<Filter> for FilterMode {
     fn from(filter: Filter) -> Self {
         match filter {
@@ -293,18 +316,29 @@ pub(crate) enum Backend {
     Gpu,
 }
 
+impl Backend {
+    /// As the command line spells it.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Cpu => "cpu",
+            Self::Gpu => "gpu",
+        }
+    }
+}
+
 /// `vtex preview`.
 #[derive(Debug, Args)]
 pub(crate) struct Preview {
     /// The .vtex file; - for standard input
     pub(crate) file: PathBuf,
-    /// PNG file to write; - for standard output
+    /// File to write, .png; - for standard output
     #[arg(short, long, value_name = "PNG")]
     pub(crate) output: PathBuf,
     /// Size in pixels: `WxH`, or N for the longer side
     #[arg(long, default_value = "512", value_parser = size)]
     pub(crate) size: Size,
-    /// Part of the canvas to show: left, top, right, bottom; 0,0,1,1 is the whole canvas
+    /// Part of the canvas to show: left, top, right, bottom; 0,0,1,1 is the whole canvas. Its sides
+    /// are at least 1/65536 of 1, and of its farthest coordinate, which is at most 65536
     #[arg(long, value_name = "u0,v0,u1,v1", value_parser = view, allow_hyphen_values = true)]
     pub(crate) view: Option<View>,
     /// How it is looked up.
@@ -364,6 +398,9 @@ pub(crate) struct Extract {
     /// Folder to write into
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: PathBuf,
+    /// Write nothing, and exit with 8, if it would be more than N files
+    #[arg(long, value_name = "N", default_value_t = 10_000)]
+    pub(crate) max_files: u32,
 }
 
 /// `vtex render`.
@@ -382,6 +419,9 @@ pub(crate) struct Render {
     /// Samples per pixel
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub(crate) spp: u32,
+    /// How a lookup filters
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) filter: Filter,
     /// Largest number of bounces of a light path
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=64))]
     pub(crate) bounces: u32,

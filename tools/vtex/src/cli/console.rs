@@ -1,5 +1,6 @@
 //! Output: results on standard output, everything else on standard error.
 
+use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -31,8 +32,12 @@ pub(crate) enum Verbosity {
 }
 
 /// A number of things, with the plural of most nouns.
-pub(crate) fn counted(count: usize, noun: &str) -> String {
-    let ending = if count == 1 { "" } else { "s" };
+pub(crate) fn counted<N: Display + PartialEq + From<u8>>(count: N, noun: &str) -> String {
+    let ending = match noun.ends_with("ch") {
+        _ if count == N::from(1) => "",
+        true => "es",
+        false => "s",
+    };
     format!("{count} {noun}{ending}")
 }
 
@@ -132,4 +137,18 @@ impl Drop for Progress {
 fn tell(text: &str) {
     // When standard error is closed, there is nowhere left to report that.
     let _ = writeln!(io::stderr().lock(), "{text}");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::counted;
+
+    #[test]
+    fn one_thing_is_singular() {
+        assert_eq!(counted(0_usize, "layer"), "0 layers");
+        assert_eq!(counted(1_u64, "raster patch"), "1 raster patch");
+        assert_eq!(counted(2_u32, "raster patch"), "2 raster patches");
+        assert_eq!(counted(1.0_f32, "texel"), "1 texel");
+        assert_eq!(counted(1.5_f32, "texel"), "1.5 texels");
+    }
 }

@@ -41,13 +41,32 @@ fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
         .ok_or_else(|| format!("expected {N} numbers, separated by commas"))
 }
 
+/// Farthest coordinate of a view, and the most that a view is magnified. Lookups take places as
+/// `f32`: a view further out or smaller has so few of them that it shows flat steps.
+const MAX_VIEW: f64 = 65_536.0;
+
 pub(super) fn view(text: &str) -> Result<View, String> {
     let [u0, v0, u1, v1] = numbers(text)?;
-    if u0 < u1 && v0 < v1 {
-        Ok(View { u0, v0, u1, v1 })
-    } else {
-        Err("left must be less than right, and top less than bottom".to_owned())
+    if u0 >= u1 || v0 >= v1 {
+        return Err("left must be less than right, and top less than bottom".to_owned());
     }
+    let view = View { u0, v0, u1, v1 };
+    let farthest = [u0, v0, u1, v1]
+        .map(f64::abs)
+        .into_iter()
+        .fold(1.0, f64::max);
+    if farthest > MAX_VIEW {
+        return Err(format!(
+            "coordinates must lie between -{MAX_VIEW} and {MAX_VIEW}"
+        ));
+    }
+    let least = farthest / MAX_VIEW;
+    if view.extent().iter().any(|&side| side < least) {
+        return Err(format!(
+            "width and height of this view must be at least {least:e}"
+        ));
+    }
+    Ok(view)
 }
 
 /// A finite number.
@@ -90,6 +109,11 @@ mod tests {
         assert_eq!(size("512"), Ok(Size::Longer(512)));
         assert!(size("0").is_err() && size("9x").is_err());
         assert!(view("0,0,1").is_err() && view("1,0,0,1").is_err());
+        let side = 1.0 / MAX_VIEW;
+        assert!(view(&format!("0,0,{side},{side}")).is_ok());
+        assert!(view(&format!("0,0,1,{}", 0.9 * side)).is_err());
+        assert!(view("0,65535,1,65536").is_ok() && view("0,0,1,65537").is_err());
+        assert!(view("100,0,100.001,1").is_err(), "few f32 there");
         assert_eq!(
             matrix("1,0,0,1,-.5,2"),
             Ok(Matrix([1.0, 0.0, 0.0, 1.0, -0.5, 2.0]))

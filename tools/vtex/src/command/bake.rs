@@ -20,7 +20,7 @@ use crate::baking::images::ImageFolders;
 use crate::baking::wire::Summary;
 use crate::baking::workers::Workers;
 use crate::cli::args::Bake;
-use crate::cli::{Console, ExitCode, Failure, Format, Outcome};
+use crate::cli::{Console, ExitCode, Failure, Format, Outcome, counted};
 use crate::files::input::{self, Input};
 use crate::files::{lossy, output};
 
@@ -83,12 +83,10 @@ impl<'a> Job<'a> {
                 "--check compares with files, so -o cannot be -",
             ));
         }
-        let config = baking::config(&args.options);
-        config
-            .check()
-            .map_err(|error| Failure::usage(error.to_string()))?;
+        let config = baking::checked_config(&args.options)?;
         let pairs = pair_up(input::expand(&args.inputs)?, &args.output)?;
         keep_inputs(&pairs, args.depfile.as_deref())?;
+        check_outputs(args, &pairs)?;
         // Checked here too, so that a missing folder is reported once and not by every worker.
         ImageFolders::new(&args.options.allow_images)?;
         let threads = rayon::current_num_threads();
@@ -225,8 +223,10 @@ impl<'a> Job<'a> {
         };
         let output = pair.output.display();
         let line = format!(
-            "{output}: {verdict}{}, {shapes} shapes in {layers} layers, {seconds:.2} s{}",
+            "{output}: {verdict}{}, {} in {}, {seconds:.2} s{}",
             human_bytes(bytes as u64),
+            counted(shapes, "shape"),
+            counted(layers, "layer"),
             if cached { " (cached)" } else { "" },
         );
         let warnings = summary.warnings;
@@ -293,11 +293,9 @@ impl<'a> Job<'a> {
                 .note(&format!("{}: warning: {text}", path.display()));
         }
         if warnings.len() > shown {
-            let more = warnings.len() - shown;
-            self.console.note(&format!(
-                "{}: {more} more warnings; -v prints them all",
-                path.display()
-            ));
+            let more = counted(warnings.len() - shown, "more warning");
+            self.console
+                .note(&format!("{}: {more}; -v prints all", path.display()));
         }
     }
 }
@@ -343,6 +341,25 @@ fn pair_up(inputs: Vec<Input>, out: &Path) -> Outcome<Vec<Pair>> {
             twice[0].display()
         ))),
         None => Ok(pairs),
+    }
+}
+
+/// Checks before the work what will be written by name. Outputs in a folder are left to the work:
+/// it makes missing folders, and one bad output stops no other.
+fn check_outputs(args: &Bake, pairs: &[Pair]) -> Outcome<()> {
+    for pair in pairs {
+        if pair.input.named && !args.check && !is_stdout(&pair.output) {
+            output::check(&pair.output)?;
+        }
+    }
+    let Some(depfile) = &args.depfile else {
+        return Ok(());
+    };
+    let folder = depfile.parent().unwrap_or(Path::new(""));
+    let comes = |pair: &Pair| !pair.input.named && pair.output.starts_with(folder);
+    match folder.exists() || !pairs.iter().any(comes) {
+        true => output::check(depfile),
+        false => Ok(()),
     }
 }
 

@@ -13,7 +13,7 @@ use vtex_truth::texture::{RasterTexture, Shooter, TODAY_TEXELS, canvas_options, 
 use crate::baking::fonts::FontLibrary;
 use crate::cli::args::Compare;
 use crate::cli::{Console, ExitCode, Failure, Format, Outcome};
-use crate::files::{input, lossy, output};
+use crate::files::{extension, input, is_svg, lossy, output};
 use crate::texture;
 
 /// Runs `vtex compare`.
@@ -29,7 +29,19 @@ pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {
     }
     let svg = input::read(&args.svg)?;
     let bytes = input::read(&args.file)?;
+    if extension(&args.svg) == "vtex" && is_svg(&args.file, &bytes) {
+        let message = "the SVG comes first: vtex compare IN.svg FILE";
+        return Err(Failure::invalid(&args.svg, message));
+    }
     let file = texture::parse(&args.file, &bytes)?;
+    let source_matches = source_matches(&file, &svg);
+    if source_matches == Some(false) {
+        let [name, svg] = [&args.file, &args.svg].map(|path| path.display());
+        console.note(&format!(
+            "{name}: warning: it was baked from another drawing than {svg}, or from another \
+             version of it"
+        ));
+    }
     let fonts = FontLibrary::new(args.fonts.clone())?;
     let reference = Reference::parse(&svg, fonts.for_svg(&svg), Edges::Crisp)
         .map_err(|error| Failure::invalid(&args.svg, format!("not a usable SVG: {error}")))?;
@@ -48,7 +60,11 @@ pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {
         .then(|| noise_db(&comparison, &reports))
         .transpose()?;
     match console.format {
-        Format::Json => console.json(&json(&args, &reports, noise.as_deref()))?,
+        Format::Json => {
+            let mut report = json(&args, &reports, noise.as_deref());
+            report["source_matches"] = json!(source_matches);
+            console.json(&report)?;
+        }
         Format::Text => console.result(text(&reports, noise.as_deref()).as_bytes())?,
     }
     if let Some(folder) = &args.html {
@@ -64,6 +80,12 @@ pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {
         write_pictures(folder, &comparison, &shooter, &reports)?;
     }
     Ok(verdict(&args, &reports, console))
+}
+
+/// Whether the file was baked from these bytes; `None` when it does not say from which.
+fn source_matches(file: &VtexFile, svg: &[u8]) -> Option<bool> {
+    let provenance = file.provenance.as_ref()?;
+    Some(provenance.source_hash == *blake3::hash(svg).as_bytes())
 }
 
 /// The noise of the truth in the worst window of each zoom.
@@ -132,8 +154,7 @@ fn json(args: &Compare, reports: &[ZoomReport], noise_db: Option<&[f64]>) -> Val
     };
     json!({
         "svg": lossy(&args.svg), "file": lossy(&args.file), "size": args.size, "spp": args.lookup.spp,
-        "filter": format!("{:?}", args.lookup.filter).to_lowercase(),
-        "backend": format!("{:?}", args.lookup.backend).to_lowercase(),
+        "filter": args.lookup.filter.name(), "backend": args.lookup.backend.name(),
         "zooms": reports.iter().enumerate().map(zoom).collect::<Vec<_>>(),
     })
 }

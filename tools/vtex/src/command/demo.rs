@@ -27,6 +27,7 @@ const SPP: u32 = 16;
 const SCENE: Settings = Settings {
     size_px: [720, 480],
     spp: 32,
+    filter: FilterMode::Point,
     bounces: 5,
     seed: 0,
     kind: SceneKind::Showroom,

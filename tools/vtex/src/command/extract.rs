@@ -8,7 +8,7 @@ use vtex_truth::picture::encode_png;
 use vtex_truth::srgb;
 
 use crate::cli::args::Extract;
-use crate::cli::{Console, ExitCode, Outcome};
+use crate::cli::{Console, ExitCode, Failure, Outcome, counted};
 use crate::files::{input, lossy, output};
 use crate::texture;
 use crate::texture::heat::{cell_loads, heat_map};
@@ -17,6 +17,17 @@ use crate::texture::heat::{cell_loads, heat_map};
 pub(super) fn run(args: &Extract, console: Console) -> Outcome<ExitCode> {
     let bytes = input::read(&args.file)?;
     let file = texture::parse(&args.file, &bytes)?;
+    let count = file_count(&file);
+    if count > args.max_files as usize {
+        let (name, most) = (args.file.display(), args.max_files);
+        return Err(Failure::new(
+            ExitCode::Limit,
+            format!(
+                "{name}: limit exceeded: these are {count} files, more than {most}; \
+                 --max-files {count} allows them"
+            ),
+        ));
+    }
     output::create_folder(&args.output)?;
     let mut folder = Folder {
         path: args.output.clone(),
@@ -29,11 +40,21 @@ pub(super) fn run(args: &Extract, console: Console) -> Outcome<ExitCode> {
     match console.format {
         crate::cli::Format::Json => console.json(&json!(folder.written))?,
         crate::cli::Format::Text => {
-            let (count, name) = (folder.written.len(), args.output.display());
-            console.note(&format!("{name}: {count} files"));
+            let name = args.output.display();
+            let files = counted(folder.written.len(), "file");
+            console.note(&format!("{name}: {files}"));
         }
     }
     Ok(ExitCode::Ok)
+}
+
+/// How many files the parts of `file` are.
+fn file_count(file: &VtexFile) -> usize {
+    /// The shader in two languages, two heat maps and their legend.
+    const ALWAYS: usize = 5;
+    const OF_A_LAYER: usize = 2;
+    let mips: usize = file.images.iter().map(|image| image.mips.len()).sum();
+    ALWAYS + OF_A_LAYER * file.layers.len() + mips
 }
 
 struct Folder {

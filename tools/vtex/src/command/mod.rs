@@ -61,12 +61,14 @@ fn execute(cli: Cli) -> ExitCode {
         format: cli.global.format,
     };
     let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(cli.global.threads)
+        .num_threads(cli.global.threads.into())
         .stack_size(STACK_BYTES)
         .build();
     let outcome = match pool {
         Ok(pool) => pool.install(|| dispatch(cli.command, console)),
-        Err(error) => Err(Failure::runtime(format!("cannot start threads: {error}"))),
+        Err(error) => Err(Failure::runtime(format!(
+            "cannot start threads: {error}; ask for fewer with --threads"
+        ))),
     };
     outcome.unwrap_or_else(|failure| {
         console.failure(&failure);

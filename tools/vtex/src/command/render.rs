@@ -1,15 +1,17 @@
 //! `vtex render`.
 
 use std::path::Path;
+use std::time::Instant;
 
+use serde_json::json;
 use vtex_baker::BakeConfig;
 use vtex_format::VtexFile;
 use vtex_truth::picture::View;
 
 use crate::baking::fonts::FontLibrary;
 use crate::cli::args::Render;
-use crate::cli::{Console, ExitCode, Failure, Outcome, Size};
-use crate::files::{extension, input, output};
+use crate::cli::{Console, ExitCode, Failure, Format, Outcome, Size};
+use crate::files::{extension, input, lossy, output};
 use crate::texture::film::{self, SceneKind, Settings};
 use crate::{baking, texture};
 
@@ -22,6 +24,8 @@ pub(super) fn run(args: Render, console: Console) -> Outcome<ExitCode> {
             "{name}: the output must be a .png or .exr file"
         )));
     }
+    output::check(&args.output)?;
+    let begun = Instant::now();
     let fonts = FontLibrary::new(args.fonts.clone())?;
     let files = args
         .scene
@@ -39,22 +43,37 @@ pub(super) fn run(args: Render, console: Console) -> Outcome<ExitCode> {
         (Size::Longer(longer), ..) => [longer, (longer * 2 / 3).max(1)],
     };
     let Render {
-        spp, bounces, seed, ..
+        spp,
+        filter,
+        bounces,
+        seed,
+        ..
     } = args;
     let settings = Settings {
         size_px,
         spp,
+        filter: filter.into(),
         bounces,
         seed,
         kind,
     };
     let film = film::trace(files, settings, console)?;
-    output::write(&args.output, &film::encode(&film, kind, &args.output)?)?;
+    let bytes = film::encode(&film, kind, &args.output)?;
+    output::write(&args.output, &bytes)?;
     let [width, height] = size_px;
     console.note(&format!(
         "{}: {width} x {height}, {spp} spp",
         args.output.display()
     ));
+    if console.format == Format::Json {
+        let inputs: Vec<String> = args.scene.iter().map(|path| lossy(path)).collect();
+        console.json(&json!({
+            "inputs": inputs, "output": lossy(&args.output), "bytes": bytes.len(),
+            "size_px": size_px, "spp": spp, "filter": filter.name(), "bounces": bounces,
+            "seed": seed, "showroom": kind == SceneKind::Showroom,
+            "seconds": begun.elapsed().as_secs_f64(),
+        }))?;
+    }
     Ok(ExitCode::Ok)
 }
 

@@ -5,7 +5,7 @@ use vtex_format::{Fault, Issue, Limits, validate};
 
 use crate::cli::args::Validate;
 use crate::cli::{Console, ExitCode, Failure, Format, Outcome, counted};
-use crate::files::{input, lossy};
+use crate::files::{BAKE_IT_FIRST, input, is_svg, lossy};
 
 /// Runs `vtex validate`.
 pub(super) fn run(args: &Validate, console: Console) -> Outcome<ExitCode> {
@@ -28,7 +28,11 @@ pub(super) fn run(args: &Validate, console: Console) -> Outcome<ExitCode> {
                     console.result(text.as_bytes())?;
                 }
                 if !issues.is_empty() {
-                    let message = format!("{name}: {}", advice(&issues));
+                    let advice = match is_svg(path, &bytes) {
+                        true => BAKE_IT_FIRST.to_owned(),
+                        false => advice(&issues),
+                    };
+                    let message = format!("{name}: {advice}");
                     console.failure(&Failure::new(code(&issues), message));
                 }
                 reports.push(json!({"file": lossy(path), "issues": issues_json(&issues)}));

@@ -17,23 +17,59 @@ use crate::cli::{ExitCode, Failure, Outcome};
 /// When the folder is missing or the file cannot be written.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Outcome<()> {
     let target = resolve(path);
-    match fs::metadata(&target) {
+    if is_device(path, &target)? {
+        return fs::OpenOptions::new()
+            .write(true)
+            .open(&target)
+            .and_then(|mut device| device.write_all(bytes).and_then(|()| device.flush()))
+            .map_err(|error| Failure::io("write", path, &error));
+    }
+    replace(&target, bytes).map_err(|error| explain(path, &target, &error))
+}
+
+/// Checks that [`write()`] can write to `path`, before work whose result would be lost otherwise.
+/// Nothing is left behind.
+///
+/// # Errors
+/// Those of [`write()`] that can be foreseen.
+pub(crate) fn check(path: &Path) -> Outcome<()> {
+    let target = resolve(path);
+    if is_device(path, &target)? {
+        return Ok(());
+    }
+    // Only an attempt tells whether the system allows it.
+    tempfile_for(&target)
+        .map(drop)
+        .map_err(|error| explain(path, &target, &error))
+}
+
+/// Whether `target`, to which the links of `path` lead, exists and is no file but a device or a
+/// pipe.
+fn is_device(path: &Path, target: &Path) -> Outcome<bool> {
+    match fs::metadata(target) {
         Ok(existing) if existing.is_dir() => Err(Failure::new(
             ExitCode::Io,
             format!("{}: this is a folder; name a file", path.display()),
         )),
-        Ok(existing) if !existing.is_file() => fs::OpenOptions::new()
-            .write(true)
-            .open(&target)
-            .and_then(|mut device| device.write_all(bytes).and_then(|()| device.flush()))
-            .map_err(|error| Failure::io("write", path, &error)),
-        _ => replace(&target, bytes).map_err(|error| explain(path, &error)),
+        Ok(existing) => Ok(!existing.is_file()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(Failure::io("write", path, &error)),
     }
 }
 
-/// Follows links, so that writing to a link replaces its target and not the link.
+/// Follows links, so that writing to a link replaces its target and not the link. The target need
+/// not exist.
 fn resolve(path: &Path) -> PathBuf {
-    fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
+    /// As many links as Linux follows; more are a loop.
+    const MAX_LINKS: usize = 40;
+    let mut target = path.to_owned();
+    for _ in 0..MAX_LINKS {
+        match fs::read_link(&target) {
+            Ok(next) => target = folder_of(&target).join(next),
+            Err(_) => break,
+        }
+    }
+    fs::canonicalize(&target).unwrap_or(target)
 }
 
 /// Files that a command must not write to, without links.
@@ -65,6 +101,15 @@ fn folder_of(path: &Path) -> &Path {
 }
 
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = tempfile_for(path)?;
+    file.write_all(bytes)?;
+    file.flush()?;
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}
+
+/// A temporary file that can be renamed to `path`.
+fn tempfile_for(path: &Path) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".vtex-").suffix(".tmp");
     let permissions = fs::metadata(path)
@@ -80,15 +125,12 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     if let Some(permissions) = permissions.filter(|p| !p.readonly()) {
         builder.permissions(permissions);
     }
-    let mut file = builder.tempfile_in(folder_of(path))?;
-    file.write_all(bytes)?;
-    file.flush()?;
-    file.persist(path).map_err(|error| error.error)?;
-    Ok(())
+    builder.tempfile_in(folder_of(path))
 }
 
-fn explain(path: &Path, error: &io::Error) -> Failure {
-    let folder = folder_of(path);
+/// The failure to write to `path`, whose links lead to `target`.
+fn explain(path: &Path, target: &Path, error: &io::Error) -> Failure {
+    let folder = folder_of(target);
     if error.kind() == io::ErrorKind::NotFound && !folder.is_dir() {
         return Failure::new(
             ExitCode::Io,
@@ -160,6 +202,41 @@ mod tests {
         assert_eq!(failure.code, ExitCode::Usage, "{failure}");
         keep_apart(&folder.path().join("y.svg"), &inputs).unwrap();
         keep_apart(Path::new("-"), &inputs).unwrap();
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_known_before() {
+        let folder = tempfile::tempdir().unwrap();
+        let inside = |name: &str| folder.path().join(name);
+        for path in [inside("no/such/x"), folder.path().to_owned()] {
+            let failure = check(&path).unwrap_err();
+            assert_eq!(failure, write(&path, b"x").unwrap_err());
+        }
+        check(&inside("x")).unwrap();
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_stay_and_lead_to_what_is_written() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let inside = |name: &str| folder.path().join(name);
+        fs::create_dir(inside("far")).unwrap();
+        symlink("second", inside("first")).unwrap();
+        symlink("far/file", inside("second")).unwrap();
+        // First the target is missing, then it exists.
+        for bytes in [b"new", b"old"] {
+            write(&inside("first"), bytes).unwrap();
+            assert_eq!(fs::read(inside("far/file")).unwrap(), bytes);
+            for link in ["first", "second"] {
+                assert!(inside(link).is_symlink(), "{link} was replaced");
+            }
+        }
+        symlink("loop", inside("loop")).unwrap();
+        check(&inside("loop")).unwrap_err();
+        write(&inside("loop"), b"x").unwrap_err();
+        assert!(inside("loop").is_symlink(), "the loop was replaced");
     }
 
     #[cfg(target_os = "linux")]

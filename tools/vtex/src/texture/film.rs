@@ -5,11 +5,11 @@ use std::path::Path;
 
 use exr::prelude::{Image, Vec2, WritableImage};
 use vtex_format::VtexFile;
-use vtex_runtime::{Film, Gpu, LoadOptions, ToneMap, TraceOptions, Tracer, scene};
+use vtex_runtime::{Film, FilterMode, Gpu, LoadOptions, ToneMap, TraceOptions, Tracer, scene};
 use vtex_scenes::showroom;
 use vtex_truth::picture::encode_png;
 
-use crate::cli::{Console, Failure, Outcome};
+use crate::cli::{Console, ExitCode, Failure, Outcome};
 use crate::files;
 
 /// What is in the picture.
@@ -28,6 +28,8 @@ pub(crate) struct Settings {
     pub(crate) size_px: [u32; 2],
     /// Samples per pixel.
     pub(crate) spp: u32,
+    /// How lookups of the textures filter.
+    pub(crate) filter: FilterMode,
     /// Most bounces of a path.
     pub(crate) bounces: u32,
     /// Seed of the random numbers.
@@ -46,10 +48,14 @@ const SAMPLES_A_STEP: u32 = 4;
 pub(crate) fn trace(files: Vec<VtexFile>, settings: Settings, console: Console) -> Outcome<Film> {
     let gpu = Gpu::headless()?;
     console.detail(&format!("tracing on {}", gpu.adapter_name()));
-    let scene = match (settings.kind, files.first()) {
+    check_size(settings.size_px, &gpu)?;
+    let mut scene = match (settings.kind, files.first()) {
         (SceneKind::Plane, Some(file)) => scene::plane(file.clone(), LoadOptions::default()),
         _ => showroom(files),
     };
+    for (_, options) in &mut scene.textures {
+        options.pack.filter = settings.filter;
+    }
     let options = TraceOptions {
         max_bounces: settings.bounces,
         seed: settings.seed,
@@ -64,6 +70,20 @@ pub(crate) fn trace(files: Vec<VtexFile>, settings: Settings, console: Console) 
         progress.step();
     }
     Ok(tracer.read()?)
+}
+
+/// Refuses a film that the GPU cannot bind, by the name of the option to change.
+fn check_size([width, height]: [u32; 2], gpu: &Gpu) -> Outcome<()> {
+    const BYTES_PER_PIXEL: u64 = 16;
+    let limit = gpu.device.limits().max_storage_buffer_binding_size;
+    let most = limit / BYTES_PER_PIXEL;
+    if u64::from(width) * u64::from(height) <= most {
+        return Ok(());
+    }
+    Err(Failure::new(
+        ExitCode::Limit,
+        format!("--size: {width} x {height} pixels are more than the {most} that this GPU binds"),
+    ))
 }
 
 /// The film as a file of the kind that the extension of `path` names. `.png` is sRGB, tone-mapped for

@@ -13,13 +13,17 @@ use vtex_truth::texture::Shooter;
 
 use crate::cli::args::Backend;
 use crate::cli::{ExitCode, Failure, Outcome};
+use crate::files::{BAKE_IT_FIRST, is_svg};
 
 /// Parses the bytes of the file at `path`.
 ///
 /// # Errors
 /// The first thing that is wrong with the file.
 pub(crate) fn parse(path: &Path, bytes: &[u8]) -> Outcome<VtexFile> {
-    VtexFile::parse(bytes, &Limits::default()).map_err(|error| read_failure(path, &error))
+    VtexFile::parse(bytes, &Limits::default()).map_err(|error| match is_svg(path, bytes) {
+        true => Failure::invalid(path, BAKE_IT_FIRST),
+        false => read_failure(path, &error),
+    })
 }
 
 /// The failure for a file that cannot be read.

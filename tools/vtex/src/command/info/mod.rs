@@ -11,7 +11,7 @@ use vtex_truth::comparison::human_bytes;
 use vtex_truth::texture::patch_cover;
 
 use crate::cli::args::Info;
-use crate::cli::{Console, ExitCode, Format, Outcome};
+use crate::cli::{Console, ExitCode, Format, Outcome, counted};
 use crate::files::input;
 use crate::texture;
 use crate::texture::heat::cell_loads;
@@ -220,11 +220,23 @@ pub(super) fn warnings_json(warnings: &[Warning]) -> Value {
         .collect()
 }
 
-/// A warning as a line of text.
+/// A warning as a line of text, with the share of the canvas that it is about.
 pub(super) fn warning_text(warning: &Warning) -> String {
-    match warning.element.as_str() {
+    let mut text = match warning.element.as_str() {
         "" => warning.message.clone(),
         element => format!("#{element}: {}", warning.message),
+    };
+    if warning.area > 0.0 {
+        // Writing to a String does not fail.
+        let _ = write!(text, " ({})", share_of_canvas(warning.area.into()));
+    }
+    text
+}
+
+fn share_of_canvas(share: f64) -> String {
+    match 100.0 * share {
+        percent if percent > 0.0 && percent < 0.1 => "less than 0.1% of the canvas".to_owned(),
+        percent => format!("{percent:.1}% of the canvas"),
     }
 }
 
@@ -270,14 +282,14 @@ fn general(out: &mut String, file: &VtexFile, directory: &Directory) -> std::fmt
     )?;
     writeln!(
         out,
-        "cells      {} x {}: {} empty ({:.1}%), {} single colour ({:.1}%), {} lists ({:.1}%)",
+        "cells      {} x {}: {} empty ({:.1}%), {} single colour ({:.1}%), {} ({:.1}%)",
         grid.size_cells[0],
         grid.size_cells[1],
         cells.empty,
         share(cells.empty),
         cells.single,
         share(cells.single),
-        cells.lists,
+        counted(cells.lists, "list"),
         share(cells.lists)
     )?;
     writeln!(
@@ -296,9 +308,9 @@ fn general(out: &mut String, file: &VtexFile, directory: &Directory) -> std::fmt
     let side = grid.texels_per_cell + 1;
     writeln!(
         out,
-        "tiles      {} of {side} x {side} texels, distance range {} texels",
+        "tiles      {} of {side} x {side} texels, distance range {}",
         tile_count(file),
-        meta.distance_range_texels
+        counted(meta.distance_range_texels, "texel")
     )?;
     writeln!(out, "paints     {}", file.paints.len())?;
     writeln!(out, "sampler    {}", sampler(file))?;
@@ -324,7 +336,8 @@ fn sampler(file: &VtexFile) -> String {
         let _ = write!(text, ", matrix {:?}", sampler.texture_matrix);
     }
     if let Some(outline) = sampler.outline {
-        let _ = write!(text, ", outline {} texels", outline.width_texels);
+        let width = counted(outline.width_texels, "texel");
+        let _ = write!(text, ", outline {width}");
     }
     if sampler.mask {
         text.push_str(", mask");
@@ -335,8 +348,8 @@ fn sampler(file: &VtexFile) -> String {
 fn layers(out: &mut String, file: &VtexFile) -> std::fmt::Result {
     writeln!(
         out,
-        "\n{} layers, back to front\n{:>5} {:>8} {:>8}",
-        file.layers.len(),
+        "\n{}, back to front\n{:>5} {:>8} {:>8}",
+        counted(file.layers.len(), "layer"),
         "layer",
         "shapes",
         "tiles"
@@ -354,8 +367,8 @@ fn layers(out: &mut String, file: &VtexFile) -> std::fmt::Result {
 fn images(out: &mut String, file: &VtexFile) -> std::fmt::Result {
     writeln!(
         out,
-        "\n{} images\n{:>5} {:>13} {:>7}  uv",
-        file.images.len(),
+        "\n{}\n{:>5} {:>13} {:>7}  uv",
+        counted(file.images.len(), "image"),
         "image",
         "texels",
         "levels"
@@ -370,11 +383,8 @@ fn images(out: &mut String, file: &VtexFile) -> std::fmt::Result {
         writeln!(out, "{index:>5} {size:>13} {levels:>7}  {what}{rect}")?;
     }
     let patches = patch_cover(file);
-    let (count, percent) = (patches.count, 100.0 * patches.area);
-    writeln!(
-        out,
-        "{count} raster patches, on {percent:.1}% of the canvas"
-    )
+    let (count, share) = (patches.count, share_of_canvas(patches.area));
+    writeln!(out, "{}, on {share}", counted(count, "raster patch"))
 }
 
 /// Sections by the bundle that they are stored in.
@@ -408,14 +418,10 @@ fn sections(out: &mut String, directory: &Directory) -> std::fmt::Result {
 
 fn warnings(out: &mut String, file: &VtexFile) -> std::fmt::Result {
     let warnings = file.provenance.as_ref().map_or(&[][..], |p| &p.warnings);
-    writeln!(out, "\n{} warnings", warnings.len())?;
+    writeln!(out, "\n{}", counted(warnings.len(), "warning"))?;
     for warning in warnings {
         let (code, feature) = (warning.code, &warning.feature);
-        write!(out, "  {code:?} {feature}: {}", warning_text(warning))?;
-        match warning.area > 0.0 {
-            true => writeln!(out, " ({:.1}% of the canvas)", 100.0 * warning.area)?,
-            false => writeln!(out)?,
-        }
+        writeln!(out, "  {code:?} {feature}: {}", warning_text(warning))?;
     }
     Ok(())
 }

@@ -79,7 +79,7 @@ fn report_text(report: &ShapeReport) -> String {
         parts.push(finding_name(report.finding).to_owned());
     }
     if report.size_texels > 0 {
-        parts.push(format!("{} texels", report.size_texels));
+        parts.push(counted(report.size_texels, "texel"));
     }
     if let Some(error) = report.msdf_error {
         let (p99, wrong) = (error.p99_px, 100.0 * error.wrong_share);

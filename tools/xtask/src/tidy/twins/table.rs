@@ -39,11 +39,7 @@ pub(super) const ONLY_RUST: &[(&str, &[&str], &str)] = &[
         &["add"],
         "the body of a loop of vtex_image_filtered",
     ),
-    (
-        "picture.rs",
-        &["average", "pass", "point"],
-        "parts of vtex_picture",
-    ),
+    ("picture.rs", &["average", "point"], "parts of vtex_picture"),
     ("picture.rs", &["places"], "for tests and reports"),
     ("plane.rs", &["sub"], "WGSL has vectors"),
     ("rows.rs", &["mean"], "a part of vtex_samples_uv"),
