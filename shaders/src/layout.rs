@@ -52,8 +52,9 @@ mod header = "HEADER" {
     OUTLINE_PAINT = 15;
     /// Four floats: cells a unit of uv along both axes, then the lattice origin in cells.
     CELL_FROM_UV = 16;
-    /// Four floats: columns and rows of fine cells, fine cells along a cell, and its inverse.
-    FINE = 20;
+    /// Four floats: the last place of the grid along both axes, in cells; base cells along a cell, a
+    /// power of two; columns of base cells.
+    BASE = 20;
     /// Float: units of the curve lattice along a cell.
     CURVE_UNITS = 24;
     /// Float: units by which a cell's box is wider than the cell, on each side.
@@ -62,7 +63,7 @@ mod header = "HEADER" {
     TEXELS_PER_CELL = 26;
     /// Float: texels of mip 0 along a cell; 0 without mips.
     MIP_TEXELS_PER_CELL = 27;
-    /// First word of the fine cells.
+    /// First word of the base cells, row by row, and the blocks behind them.
     CELLS = 28;
     /// First word of the commands, [`cmd::WORDS`](super::cmd::WORDS) each.
     COMMANDS = 29;
@@ -130,10 +131,27 @@ mod cell = "CELL" {
     /// Position of the clearance.
     CLEARANCE_SHIFT = PAINT_MASK.count_ones();
     /// The greatest clearance, and the bits of one.
-    CLEARANCE_MASK = 63;
-    /// By how much of its side the list of a fine cell goes beyond it on each side, as far as the
+    CLEARANCE_MASK = 0x7ff;
+    /// Clearances are counted in parts of a cell's side, so many to a side.
+    CLEARANCE_PARTS = 8;
+    /// By how much of its side the list of a cell goes beyond it on each side, as far as the
     /// file's cell goes, in sixteenths. Only footprint lookups read it; for others it does not.
     OVERLAP = 4;
+    /// Position from which the word of a base cell that a block divides is [`BLOCK`](cell::BLOCK).
+    BLOCK_SHIFT = TAG_SHIFT - 1;
+    /// The bits of such a word from there: an empty cell's, and one that no empty cell has.
+    BLOCK = 1;
+    /// Position of a block's depth: it has 2^depth rows of as many cells.
+    DEPTH_SHIFT = BLOCK_SHIFT - 3;
+    /// The greatest depth, and the bits of one.
+    DEPTH_MASK = 7;
+    /// Bits of a block's place: its first word behind that of the first base cell, in groups of
+    /// [`BLOCK_WORDS`](cell::BLOCK_WORDS).
+    PLACE_MASK = (1 << DEPTH_SHIFT) - 1;
+    /// Each block takes a multiple of so many words.
+    BLOCK_WORDS = 4;
+    /// Position of a float's exponent: a depth added there multiplies by 2^depth.
+    EXPONENT_SHIFT = f32::MANTISSA_DIGITS - 1;
     /// Tag of an empty cell.
     EMPTY = 0;
     /// Tag of a cell of one colour.
@@ -337,6 +355,11 @@ mod image = "IMAGE" {
 
 /// Fills up the last group of a gradient's offsets: no t reaches it.
 pub const OFFSET_END: f32 = f32::MAX;
+
+/// Whether the word of a cell names a list.
+pub(crate) fn has_list(word: u32) -> bool {
+    word >> cell::TAG_SHIFT >= cell::LIST
+}
 
 /// What a lookup returns of the picture that the cells show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

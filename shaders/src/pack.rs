@@ -25,8 +25,8 @@ pub struct PackOptions {
     pub texture_matrix: Option<[f32; 6]>,
     /// Half width S of \[SFG22\] eq. 1 instead of the file's, in (0, 0.5].
     pub smoothing: Option<f32>,
-    /// How often the file's cells are halved, at most 5, instead of what the cost model finds best
-    /// for many lookups (docs/decisions/0007).
+    /// How often the file's cells are halved where they show edges, at most 6, instead of what the
+    /// cost model finds best for each of them (docs/decisions/0019).
     pub halvings: Option<u32>,
 }
 
@@ -52,12 +52,13 @@ pub fn pack(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
     let key = spec_key(file, options);
     let subdivision = subdivide(file, options.filter, options.halvings);
     let mut words = header_words(file, options, &key);
-    let fine = |axis: usize| to_f32(file.meta.grid.size_cells[axis] << subdivision.depth);
-    let per_cell = to_f32(1 << subdivision.depth);
-    let sizes = [fine(0), fine(1), per_cell, 1.0 / per_cell].map(f32::to_bits);
-    words[header::FINE as usize..][..4].copy_from_slice(&sizes);
-    words.reserve(subdivision.words.len() + 4 * subdivision.commands.len() + file.tiles.len() / 4);
-    section(&mut words, header::CELLS, &subdivision.words);
+    let grid = &subdivision.grid;
+    let [right, bottom] = file.meta.grid.size_cells.map(last_place);
+    let columns = to_f32(word_index(grid.size[0]));
+    let base = [right, bottom, grid.base_per_cell(), columns].map(f32::to_bits);
+    words[header::BASE as usize..][..4].copy_from_slice(&base);
+    words.reserve(grid.words.len() + 4 * subdivision.commands.len() + file.tiles.len() / 4);
+    section(&mut words, header::CELLS, &grid.words);
     section(
         &mut words,
         header::COMMANDS,
@@ -72,6 +73,11 @@ pub fn pack(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
     image_words(&mut words, &file.images);
     words.resize(words.len().next_multiple_of(GROUP_WORDS), 0);
     words
+}
+
+/// The last place along an axis of so many cells.
+fn last_place(cells: u32) -> f32 {
+    to_f32(cells.max(1)).next_down()
 }
 
 fn header_words(file: &VtexFile, options: &PackOptions, key: &SpecKey) -> Vec<u32> {

@@ -4,73 +4,116 @@
 //! left to test. A fine cell keeps of its cell's list the segments, as they are, that its lookups
 //! can tell apart. Nothing is cut or rounded, so every lookup gets the result that the coarse cell
 //! gives.
+//!
+//! Each cell is divided as deep as its content is worth ([`depth`], [`tree`]). Evaluators read a grid
+//! of base cells, and a block of finer ones where a base cell shows more than a word says ([`grid`]).
 
 mod clearance;
 mod clip;
 mod commands;
 mod depth;
+mod grid;
 mod group;
 mod list;
+mod lists;
 mod outline;
+mod tree;
 
 use std::collections::BTreeMap;
 
 use vtex_format::{CellWord, VtexFile};
 
 use crate::layout::{FilterMode, cell};
-use commands::Order;
-use list::List;
+use depth::Model;
+use grid::{Grid, Picture};
+use lists::Lists;
 use outline::Region;
+use tree::{Divider, Tree};
 
 /// The cells that evaluators read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Subdivision {
-    /// How often the file's cells are halved.
-    pub(crate) depth: u32,
-    /// One word a fine cell, row by row, as [`cell`] says.
-    pub(crate) words: Vec<u32>,
+    /// Base cells and blocks.
+    pub(crate) grid: Grid,
     /// All lists' commands.
     pub(crate) commands: Vec<[u32; 4]>,
 }
 
+impl Subdivision {
+    fn bytes(&self) -> usize {
+        4 * self.grid.words.len() + 16 * self.commands.len()
+    }
+}
+
 /// `halvings` as in [`crate::PackOptions`].
 pub(crate) fn subdivide(file: &VtexFile, filter: FilterMode, halvings: Option<u32>) -> Subdivision {
-    let depth = match halvings {
-        Some(halvings) => halvings.min(depth::MAX_DEPTH),
-        None => depth::choose(file, filter),
-    };
-    let [columns, rows] = file.meta.grid.size_cells.map(|count| count as usize);
-    let whole = whole_cell(file);
-    let mut build = Build {
-        whole,
-        filter,
-        pitch: columns << depth,
-        words: vec![0; (columns << depth) * (rows << depth)],
-        commands: Vec::new(),
-        shared: BTreeMap::new(),
-    };
-    for (index, &word) in file.cells.iter().enumerate() {
-        let at = [(index % columns) << depth, (index / columns) << depth];
-        match CellWord::decode(word) {
-            Some(CellWord::List { offset_words }) => {
-                // Lists of one cell are alike, those of two hardly ever.
-                build.shared.clear();
-                build.list(&list_of(file, offset_words), &whole, at, depth);
+    let mut next = Some(Model::new(file, filter, halvings));
+    let mut made = Subdivision::default();
+    while let Some(model) = next {
+        if let Some(subdivision) = divide(file, filter, &model) {
+            let fits = halvings.is_some() || subdivision.bytes() <= depth::MAX_BYTES;
+            made = subdivision;
+            if fits {
+                break;
             }
-            Some(CellWord::Paint { paint }) => {
-                build.fill(at, depth, cell::SOLID << cell::TAG_SHIFT | paint);
-            }
-            _ => {}
         }
+        next = model.coarser();
     }
     if filter == FilterMode::Footprint {
-        clearance::write(&mut build.words, build.pitch);
+        clearance::write(&mut made.grid);
     }
-    Subdivision {
-        depth,
-        words: build.words,
-        commands: build.commands,
+    made
+}
+
+/// `None` where the words cannot name all blocks.
+fn divide(file: &VtexFile, filter: FilterMode, model: &Model) -> Option<Subdivision> {
+    let mut uses: BTreeMap<u32, usize> = BTreeMap::new();
+    for &word in &file.cells {
+        *uses.entry(word).or_default() += 1;
     }
+    let mut divider = Divider::new(whole_cell(file), filter, model);
+    let mut lists = Lists::default();
+    let mut picture = Picture {
+        size: file.meta.grid.size_cells.map(|count| count as usize),
+        ..Picture::default()
+    };
+    let mut known: BTreeMap<u32, usize> = BTreeMap::new();
+    let mut leaves: BTreeMap<u32, usize> = BTreeMap::new();
+    for &word in &file.cells {
+        let index = known.entry(word).or_insert_with(|| {
+            let tree = match CellWord::decode(word) {
+                Some(CellWord::List { offset_words }) => {
+                    let words = file.entries.get(offset_words as usize..).unwrap_or(&[]);
+                    let uses = uses.get(&word).copied().unwrap_or(1);
+                    divider.tree(words, &file.curves, uses, &mut lists)
+                }
+                Some(CellWord::Paint { paint }) => {
+                    Tree::Leaf(cell::SOLID << cell::TAG_SHIFT | paint)
+                }
+                _ => Tree::Leaf(cell::EMPTY),
+            };
+            let next = picture.trees.len();
+            let index = match tree.word() {
+                Some(word) => *leaves.entry(word).or_insert(next),
+                None => next,
+            };
+            if index == next {
+                picture.trees.push(tree);
+            }
+            index
+        });
+        picture.cells.push(*index);
+    }
+    // As many cells as the grid has, which only a file that no validator lets in has not.
+    let cells = picture.size[0] * picture.size[1];
+    if picture.cells.len() < cells {
+        picture.cells.resize(cells, picture.trees.len());
+        picture.trees.push(Tree::Leaf(cell::EMPTY));
+    }
+    Some(Subdivision {
+        grid: picture.grid()?,
+        commands: lists.commands,
+    })
 }
 
 /// A cell of the file in units of its box.
@@ -92,67 +135,6 @@ fn dilated(fine: &Region, whole: &Region, filter: FilterMode) -> Region {
             .intersection(whole)
     } else {
         *fine
-    }
-}
-
-fn list_of(file: &VtexFile, offset_words: u32) -> List {
-    let words = file.entries.get(offset_words as usize..).unwrap_or(&[]);
-    List::decode(words, &file.curves)
-}
-
-struct Build {
-    /// Of a cell of the file.
-    whole: Region,
-    filter: FilterMode,
-    pitch: usize,
-    words: Vec<u32>,
-    commands: Vec<[u32; 4]>,
-    /// Where the lists of this cell's parts lie.
-    shared: BTreeMap<Vec<[u32; 4]>, u32>,
-}
-
-impl Build {
-    fn fill(&mut self, [x, y]: [usize; 2], level: u32, word: u32) {
-        let side = 1 << level;
-        for row in y..y + side {
-            let first = row * self.pitch + x;
-            self.words[first..first + side].fill(word);
-        }
-    }
-
-    fn list(&mut self, list: &List, region: &Region, [x, y]: [usize; 2], level: u32) {
-        if level > 0 && list.has_outlines() {
-            let half = 1 << (level - 1);
-            let corners = [[x, y], [x + half, y], [x, y + half], [x + half, y + half]];
-            for (quarter, corner) in region.quarters().iter().zip(corners) {
-                self.list(
-                    &list.within(&dilated(quarter, &self.whole, self.filter)),
-                    quarter,
-                    corner,
-                    level - 1,
-                );
-            }
-            return;
-        }
-        let word = if list.is_empty() {
-            cell::EMPTY
-        } else if let Some(paint) = list.solid() {
-            cell::SOLID << cell::TAG_SHIFT | paint
-        } else {
-            let (tag, order) = if list.has_groups() {
-                (cell::GROUPS, Order::BackToFront)
-            } else {
-                (cell::LIST, Order::FrontToBack)
-            };
-            let commands = list.commands(order);
-            let next = u32::try_from(self.commands.len()).unwrap_or(cell::PAYLOAD_MASK);
-            let first = *self.shared.entry(commands).or_insert_with_key(|commands| {
-                self.commands.extend(commands);
-                next
-            });
-            tag << cell::TAG_SHIFT | first.min(cell::PAYLOAD_MASK)
-        };
-        self.fill([x, y], level, word);
     }
 }
 

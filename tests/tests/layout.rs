@@ -13,13 +13,14 @@ fn key(features: u32) -> SpecKey {
 }
 
 /// Numbers that are no integers; tests of parity hold them against Rust's.
-const FLOATS: [&str; 6] = [
+const FLOATS: [&str; 7] = [
     "VTEX_ROWS_LEAST",
     "VTEX_LOOKUP_MOST",
     "VTEX_ROWS_ROW",
     "VTEX_ROWS_COLUMN",
     "VTEX_PICTURE_FAR",
     "VTEX_PICTURE_OVERLAP",
+    "VTEX_PICTURE_PART",
 ];
 
 /// Named constants of a module that are not of its key; all but those of [`FLOATS`] are `u32`.

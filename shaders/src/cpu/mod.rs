@@ -6,6 +6,7 @@
 
 mod blend;
 mod brush;
+mod cell;
 pub mod color;
 mod cost;
 mod edge;

@@ -1,10 +1,11 @@
-//! Twin of `vtex/picture_*.wgsl`, `vtex/cell.wgsl`, `vtex/lists_*.wgsl` and `vtex/draws_*.wgsl`: what
-//! the cells show to a lookup.
+//! Twin of `vtex/picture_*.wgsl`, `vtex/lists_*.wgsl` and `vtex/draws_*.wgsl`: what the cells show to
+//! a lookup.
 
 use vtex_format::Features;
 
+use super::cell::{cell, corner};
 use super::cost::Observer;
-use super::math::{clamp, to_f32, to_u32};
+use super::math::to_f32;
 use super::plane::Vec2;
 use super::rows::{CellRows, Phase, Rows, extent};
 use super::samples::{Point, Samples};
@@ -15,8 +16,10 @@ use crate::layout::{cell, cmd, filter};
 
 /// Farther than any place in cells.
 const FAR: f32 = 1e30;
-/// By how much of its side the list of a fine cell goes beyond it.
+/// By how much of its side the list of a cell goes beyond it.
 const OVERLAP: f32 = cell::OVERLAP as f32 / 16.0;
+/// What of its side a cell's clearance is counted in.
+const PART: f32 = 1.0 / cell::CLEARANCE_PARTS as f32;
 
 /// Linear light, premultiplied.
 pub(super) fn picture(
@@ -29,14 +32,13 @@ pub(super) fn picture(
     if s.filter == filter::FOOTPRINT {
         return average(sampler, lookup, p, observer);
     }
-    let fine = fine_cell(sampler, p);
-    let q = [0, 1].map(|i| p[i] - (fine[i] * s.cell_per_fine).floor());
-    let word = word_at(sampler, fine.map(to_u32));
-    observer.cell();
-    point(sampler, lookup, word, q, observer)
+    let found = cell(sampler, p, observer);
+    let corner = corner(sampler, p);
+    let q = [0, 1].map(|i| p[i] - corner[i]);
+    point(sampler, lookup, found.word, q, observer)
 }
 
-/// What a fine cell with `word` shows to a point lookup.
+/// What a cell with `word` shows to a point lookup.
 pub(super) fn point(
     sampler: &Sampler<'_>,
     lookup: &Lookup,
@@ -61,8 +63,7 @@ fn average(
     observer: &mut impl Observer,
 ) -> [f32; 4] {
     let mut canvas = Canvas::new(sampler, lookup, p);
-    let mut pass = canvas.pass(sampler, canvas.centre);
-    observer.cell();
+    let mut pass = canvas.pass(sampler, canvas.centre, observer);
     // Most footprints lie in one paint.
     if pass.whole && pass.word >> cell::TAG_SHIFT < cell::LIST {
         return point(sampler, lookup, pass.word, canvas.centre, observer);
@@ -100,8 +101,7 @@ fn average(
         }
         let next = live.trailing_zeros();
         own = 1 << next;
-        pass = canvas.pass(sampler, canvas.rows.place(next));
-        observer.cell();
+        pass = canvas.pass(sampler, canvas.rows.place(next), observer);
     }
     sum.map(|channel| channel / count.max(1.0))
 }
@@ -120,7 +120,7 @@ struct Canvas {
     high: Vec2,
 }
 
-/// The samples of one pass: those in a fine cell, or in a square of such as show the same, or those
+/// The samples of one pass: those in a cell, or in a square around it that shows the same, or those
 /// beyond one side of the canvas, which do not count.
 struct Pass {
     word: u32,
@@ -152,15 +152,17 @@ impl Canvas {
     }
 
     /// The pass for what lies at `place`.
-    fn pass(&self, sampler: &Sampler<'_>, place: Vec2) -> Pass {
-        let s = &sampler.settings;
-        let fine = fine_cell(sampler, [0, 1].map(|i| place[i] + self.home[i]));
-        let word = word_at(sampler, fine.map(to_u32));
-        let cell = [0, 1].map(|i| (fine[i] * s.cell_per_fine).floor() - self.home[i]);
+    fn pass(&self, sampler: &Sampler<'_>, place: Vec2, observer: &mut impl Observer) -> Pass {
+        let p = [0, 1].map(|i| place[i] + self.home[i]);
+        let found = cell(sampler, p, observer);
+        let side = found.side();
+        let word = found.word;
+        let corner = corner(sampler, p);
+        let cell = [0, 1].map(|i| corner[i] - self.home[i]);
         // A list serves what is near, as far as its cell of the file goes.
         let listed = word >> cell::TAG_SHIFT >= cell::LIST;
         let clearance = to_f32(word >> cell::CLEARANCE_SHIFT & cell::CLEARANCE_MASK);
-        let around = if listed { OVERLAP } else { clearance } * s.cell_per_fine;
+        let around = if listed { OVERLAP } else { clearance * PART } * side;
         let mut pass = Pass {
             word,
             cell,
@@ -169,14 +171,14 @@ impl Canvas {
             whole: true,
             beyond: false,
         };
-        for i in 0..2 {
+        for (i, &cell) in cell.iter().enumerate() {
             if listed {
-                pass.low[i] = pass.low[i].max(cell[i]);
-                pass.high[i] = pass.high[i].min(cell[i] + 1.0);
+                pass.low[i] = pass.low[i].max(cell);
+                pass.high[i] = pass.high[i].min(cell + 1.0);
             }
-            let corner = fine[i] * s.cell_per_fine - self.home[i];
+            let corner = found.at[i] * side - self.home[i];
             pass.low[i] = pass.low[i].max(corner - around);
-            pass.high[i] = pass.high[i].min(corner + around + s.cell_per_fine);
+            pass.high[i] = pass.high[i].min(corner + around + side);
             pass.whole &= pass.low[i] <= self.centre[i] - self.extent[i];
             pass.whole &= self.centre[i] + self.extent[i] < pass.high[i];
         }
@@ -215,7 +217,7 @@ pub(super) fn places(sampler: &Sampler<'_>, lookup: &Lookup) -> Vec<Vec2> {
     places.into_iter().map(uv).collect()
 }
 
-/// What a fine cell with `word` shows to the samples of `live`.
+/// What a cell with `word` shows to the samples of `live`.
 fn lists<S: Samples>(
     sampler: &Sampler<'_>,
     lookup: &Lookup,
@@ -241,17 +243,4 @@ fn lists<S: Samples>(
         cell::GROUPS => groups::groups(sampler, lookup, first, samples, live, observer),
         _ => Resolved::of([0.0; 4], live),
     }
-}
-
-/// Column and row of the fine cell that `p`, in cells, lies in.
-pub(super) fn fine_cell(sampler: &Sampler<'_>, p: Vec2) -> Vec2 {
-    let s = &sampler.settings;
-    [0, 1].map(|i| clamp((p[i] * s.fine_per_cell).floor(), 0.0, s.fine_size[i] - 1.0))
-}
-
-/// Word of a fine cell.
-pub(super) fn word_at(sampler: &Sampler<'_>, [x, y]: [u32; 2]) -> u32 {
-    let s = &sampler.settings;
-    let index = y.wrapping_mul(to_u32(s.fine_size[0])).wrapping_add(x);
-    sampler.word(s.cells.wrapping_add(index))
 }

@@ -12,11 +12,12 @@ pub(super) struct Settings {
     pub(super) texture_matrix: [f32; 6],
     pub(super) scale: [f32; 2],
     pub(super) offset: [f32; 2],
-    /// Columns and rows of fine cells.
-    pub(super) fine_size: [f32; 2],
-    /// Fine cells along a cell, and what of a cell one is.
-    pub(super) fine_per_cell: f32,
-    pub(super) cell_per_fine: f32,
+    /// The last place of the grid along both axes, in cells.
+    pub(super) last_place: [f32; 2],
+    /// Base cells along a cell, a power of two.
+    pub(super) base_per_cell: f32,
+    /// Columns of base cells.
+    pub(super) base_columns: f32,
     pub(super) texels_per_cell: u32,
     pub(super) mip_texels_per_cell: f32,
     pub(super) distance_range: f32,
@@ -49,9 +50,9 @@ impl Settings {
             texture_matrix: [0, 1, 2, 3, 4, 5].map(|i| float(m + i)),
             scale: float2(header::CELL_FROM_UV),
             offset: float2(header::CELL_FROM_UV + 2),
-            fine_size: float2(header::FINE),
-            fine_per_cell: float(header::FINE + 2),
-            cell_per_fine: float(header::FINE + 3),
+            last_place: float2(header::BASE),
+            base_per_cell: float(header::BASE + 2),
+            base_columns: float(header::BASE + 3),
             texels_per_cell: word(header::TEXELS_PER_CELL),
             mip_texels_per_cell: float(header::MIP_TEXELS_PER_CELL),
             distance_range: float(header::DISTANCE_RANGE),

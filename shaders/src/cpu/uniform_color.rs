@@ -1,7 +1,8 @@
 //! Whether a part of the canvas has one colour: no twin, for the baker.
 
+use super::cell::{Cell, cell};
 use super::math::{clamp, to_f32, to_u32};
-use super::picture::{point, word_at};
+use super::picture::point;
 use super::{Lookup, Sampler, paint, segment};
 use crate::layout::{cell, cmd, filter};
 
@@ -12,23 +13,53 @@ impl Sampler<'_> {
     pub fn uniform_color(&self, low: [f32; 2], high: [f32; 2]) -> Option<[f32; 4]> {
         let s = &self.settings;
         let place = |uv: [f32; 2]| [0, 1].map(|axis| uv[axis] * s.scale[axis] + s.offset[axis]);
-        let span = [place(low), place(high)];
-        let [first, last] = span.map(|p| {
-            let fine = |axis: usize| (p[axis] * s.fine_per_cell).floor();
-            [0, 1].map(|axis| to_u32(clamp(fine(axis), 0.0, s.fine_size[axis] - 1.0)))
+        let last = |p: [f32; 2]| [0, 1].map(|axis| clamp(p[axis], 0.0, s.last_place[axis]));
+        let span = [low, high].map(|uv| last(place(uv)));
+        let mut color = None;
+        let even = self.cells(s.base_per_cell, span, |base| {
+            let per_cell = base.per_cell();
+            if per_cell <= s.base_per_cell {
+                return self.adds(&mut color, base, span);
+            }
+            let ends = base.ends_of(s.base_per_cell);
+            let within = |p: [f32; 2]| {
+                [0, 1].map(|axis| clamp(p[axis], ends[0][axis], ends[1][axis].next_down()))
+            };
+            self.cells(per_cell, span.map(within), |cell| {
+                self.adds(&mut color, cell, span)
+            })
         });
-        let rows = first[1]..=last[1];
-        let fine = rows.flat_map(|y| (first[0]..=last[0]).map(move |x| [x, y]));
-        let mut colors = fine.map(|fine| self.cell_color(fine, span));
-        let color = colors.next()??;
-        colors.all(|other| other == Some(color)).then_some(color)
+        if even { color } else { None }
     }
 
-    /// The one colour where a fine cell and the box that spans two places, in cells, meet.
-    fn cell_color(&self, fine: [u32; 2], span: [[f32; 2]; 2]) -> Option<[f32; 4]> {
-        let s = &self.settings;
-        let word = word_at(self, fine);
-        let ends = [0.0, 1.0].map(|end| fine.map(|part| (to_f32(part) + end) * s.cell_per_fine));
+    /// Whether `visit` says so of all cells, so many to one of the file's, that a box meets.
+    fn cells(
+        &self,
+        per_cell: f32,
+        [low, high]: [[f32; 2]; 2],
+        mut visit: impl FnMut(Cell) -> bool,
+    ) -> bool {
+        let at = |p: [f32; 2]| p.map(|p| to_u32(p * per_cell));
+        let ([left, top], [right, bottom]) = (at(low), at(high));
+        (top..=bottom).all(|y| {
+            (left..=right).all(|x| {
+                let middle = [x, y].map(|at| (to_f32(at) + 0.5) / per_cell);
+                visit(cell(self, middle, &mut ()))
+            })
+        })
+    }
+
+    /// Whether where a cell and a box meet the one colour shows that showed so far.
+    fn adds(&self, color: &mut Option<[f32; 4]>, cell: Cell, span: [[f32; 2]; 2]) -> bool {
+        let own = self.cell_color(cell, span);
+        let known = *color.get_or_insert(own.unwrap_or_default());
+        own == Some(known)
+    }
+
+    /// The one colour where a cell and the box that spans two places, in the file's cells, meet.
+    fn cell_color(&self, found: Cell, span: [[f32; 2]; 2]) -> Option<[f32; 4]> {
+        let word = found.word;
+        let ends = found.ends();
         let corner = ends[0].map(f32::floor);
         let [low, high] = span.map(|p| {
             [0, 1].map(|axis| clamp(p[axis], ends[0][axis], ends[1][axis]) - corner[axis])

@@ -4,18 +4,18 @@ use std::ops::Range;
 
 use vtex_format::{Entry, branch_target};
 
-use super::list::{Node, any_outline, command_count, within};
-use super::outline::{Outline, Region};
+use super::list::{Arena, Node};
+use super::outline::{Outline, Outlines, Span};
 
 /// Blocks behind branches.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Clip {
-    pub(super) branches: Vec<Branch>,
-    pub(super) body: Vec<Node>,
+    branches: Span,
+    pub(super) body: Span,
 }
 
 /// A branch to `to`, taken or not.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Branch {
     /// Without one it is always taken.
     pub(super) outline: Option<Outline>,
@@ -36,65 +36,66 @@ pub(super) enum Goal {
 }
 
 impl Clip {
-    /// The clip of `branches`, places in `entries`, with their outlines.
+    pub(super) fn new(arena: &mut Arena, branches: &[Branch], body: Span) -> Self {
+        let first = arena.branches.len();
+        arena.branches.extend(branches);
+        Self {
+            branches: Span::from(first, &arena.branches),
+            body,
+        }
+    }
+
+    pub(super) fn branches(self, arena: &Arena) -> &[Branch] {
+        &arena.branches[self.branches.range()]
+    }
+
+    pub(super) fn has_outlines(self, arena: &Arena) -> bool {
+        let mut branches = self.branches(arena).iter();
+        branches.any(|branch| branch.outline.is_some()) || arena.has_outlines(self.body)
+    }
+
+    /// Makes pending what shows: nothing, this clip with fewer branches, or its body without any.
+    pub(super) fn cut(self, arena: &mut Arena, x: [f64; 2]) {
+        let branches = arena.branches[self.branches.range()].iter();
+        let branches: Vec<Branch> = branches
+            .map(|branch| branch.within(&mut arena.outlines, x))
+            .collect();
+        let goals = goals(&branches);
+        let first = arena.pending.len();
+        if goals[0] != Goal::End {
+            arena.cut(self.body, x);
+        }
+        if matches!(goals[0], Goal::Branch(_)) && arena.pending.len() > first {
+            let body = arena.keep(first);
+            let clip = Self::new(arena, &kept(&branches, &goals), body);
+            arena.pending.push(Node::Clip(clip));
+        }
+    }
+}
+
+impl Branch {
+    /// The branch at `at` of `entries`, one of a clip's.
     pub(super) fn new(
         entries: &[Entry],
-        branches: Range<usize>,
-        outline: impl Fn(usize) -> Outline,
-        body: Vec<Node>,
+        branches: &Range<usize>,
+        at: usize,
+        outline: Outline,
     ) -> Self {
-        let branch = |at: usize| Branch {
-            outline: Some(outline(at)),
+        Self {
+            outline: Some(outline),
             inside: entries[at].opaque,
             to: match branch_target(at, &entries[at]) {
                 target if target < branches.end => Goal::Branch(target - branches.start),
                 target if target == branches.end => Goal::Body,
                 _ => Goal::End,
             },
-        };
-        Self {
-            branches: branches.clone().map(branch).collect(),
-            body,
         }
     }
 
-    pub(super) fn has_outlines(&self) -> bool {
-        self.branches.iter().any(|branch| branch.outline.is_some()) || any_outline(&self.body)
-    }
-
-    pub(super) fn command_count(&self) -> usize {
-        let of = |branch: &Branch| branch.outline.as_ref().map_or(1, Outline::command_count);
-        self.branches.iter().map(of).sum::<usize>() + command_count(&self.body)
-    }
-
-    /// What shows in a region: nothing, this clip with fewer branches, or its body without any.
-    pub(super) fn within(&self, region: &Region) -> Vec<Node> {
-        let branches: Vec<Branch> = self
-            .branches
-            .iter()
-            .map(|branch| branch.within(region))
-            .collect();
-        let goals = goals(&branches);
-        match goals.first() {
-            Some(Goal::End) => Vec::new(),
-            Some(Goal::Branch(_)) => {
-                let body = within(&self.body, region);
-                if body.is_empty() {
-                    return body;
-                }
-                let branches = kept(&branches, &goals);
-                vec![Node::Clip(Self { branches, body })]
-            }
-            Some(Goal::Body) | None => within(&self.body, region),
-        }
-    }
-}
-
-impl Branch {
     /// Without outline where it is decided: then `to` says for which.
-    fn within(&self, region: &Region) -> Self {
-        let outline = self.outline.as_ref().map(|outline| outline.within(region));
-        let decided = outline.as_ref().filter(|outline| outline.is_uniform());
+    fn within(&self, outlines: &mut Outlines, x: [f64; 2]) -> Self {
+        let outline = self.outline.map(|outline| outlines.within(outline, x));
+        let decided = outline.filter(Outline::is_uniform);
         let fallthrough = decided.is_some_and(|outline| outline.base_fills() != self.inside);
         Self {
             outline: outline.filter(|outline| !outline.is_uniform()),
@@ -162,7 +163,7 @@ fn kept(branches: &[Branch], goals: &[Goal]) -> Vec<Branch> {
         // What is next needs no branch, whichever side leads there.
         let turned = fallthrough != next && taken == next;
         kept.push(Branch {
-            outline: branch.outline.clone(),
+            outline: branch.outline,
             inside: branch.inside != turned,
             to: if turned { fallthrough } else { taken },
         });

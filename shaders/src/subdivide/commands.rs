@@ -4,8 +4,8 @@ use vtex_format::{Entry, EntryKind};
 
 use super::clip::{Clip, Goal};
 use super::group::Group;
-use super::list::{Node, Part};
-use super::outline::{Outline, Segment};
+use super::list::{Arena, Node, Part};
+use super::outline::{Outline, Segment, Span};
 use crate::layout::cmd;
 
 /// The last command of an entry holds a base winding of four bits.
@@ -22,26 +22,33 @@ pub(super) enum Order {
     BackToFront,
 }
 
-/// The commands of a list, four words each.
-pub(super) fn commands(nodes: &[Node], order: Order) -> Vec<[u32; 4]> {
+/// Appends the commands of a list, four words each.
+pub(super) fn write(arena: &Arena, nodes: Span, order: Order, commands: &mut Vec<[u32; 4]>) {
+    let first = commands.len();
     let mut writer = Writer {
-        commands: Vec::new(),
+        arena,
+        commands,
         branches: Vec::new(),
         order,
     };
     writer.nodes(nodes);
-    writer.finish()
+    writer.branch();
+    if let Some(last) = commands[first..].last_mut() {
+        last[3] |= cmd::LAST_BIT;
+    }
 }
 
-struct Writer {
-    commands: Vec<[u32; 4]>,
+struct Writer<'a> {
+    arena: &'a Arena,
+    commands: &'a mut Vec<[u32; 4]>,
     /// Last commands of entries that branch, and the commands they branch to.
     branches: Vec<(usize, usize)>,
     order: Order,
 }
 
-impl Writer {
-    fn nodes(&mut self, nodes: &[Node]) {
+impl Writer<'_> {
+    fn nodes(&mut self, nodes: Span) {
+        let nodes = &self.arena.nodes[nodes.range()];
         match self.order {
             Order::FrontToBack => nodes.iter().for_each(|node| self.node(node)),
             Order::BackToFront => nodes.iter().rev().for_each(|node| self.node(node)),
@@ -51,8 +58,8 @@ impl Writer {
     fn node(&mut self, node: &Node) {
         match node {
             Node::Draw(part) => self.draw(part),
-            Node::Clip(clip) => self.clip(clip),
-            Node::Group(group) => self.group(group),
+            Node::Clip(clip) => self.clip(*clip),
+            Node::Group(group) => self.group(*group),
         }
     }
 
@@ -67,7 +74,7 @@ impl Writer {
     fn outline(&mut self, outline: &Outline, tag: u32) {
         let first = self.commands.len();
         let base = outline.base.clamp(-BASE_LIMIT, BASE_LIMIT - 1);
-        push_outline(&mut self.commands, outline, outline.base - base);
+        self.push_outline(outline, outline.base - base);
         if self.commands.len() == first {
             self.commands.push([0; 4]);
         }
@@ -82,10 +89,11 @@ impl Writer {
         }
     }
 
-    fn clip(&mut self, clip: &Clip) {
+    fn clip(&mut self, clip: Clip) {
         let mut places = Vec::new();
         let mut ends = Vec::new();
-        for branch in &clip.branches {
+        let branches = clip.branches(self.arena);
+        for branch in branches {
             places.push(self.commands.len());
             let inside = if branch.inside { cmd::OPAQUE_BIT } else { 0 };
             let tag = cmd::END_BIT | cmd::CONTROL_BIT | inside;
@@ -96,9 +104,9 @@ impl Writer {
             ends.push(self.commands.len() - 1);
         }
         let body = self.commands.len();
-        self.nodes(&clip.body);
+        self.nodes(clip.body);
         let end = self.commands.len();
-        for (branch, last) in clip.branches.iter().zip(ends) {
+        for (branch, last) in branches.iter().zip(ends) {
             let target = match branch.to {
                 Goal::Branch(place) => places[place],
                 Goal::Body => body,
@@ -108,17 +116,17 @@ impl Writer {
         }
     }
 
-    fn group(&mut self, group: &Group) {
+    fn group(&mut self, group: Group) {
         let mut masks = Vec::new();
-        for mask in &group.masks {
+        for mask in group.masks(self.arena) {
             self.control([1, 0, 0], cmd::OPEN);
-            self.nodes(&mask.body);
+            self.nodes(mask.body);
             masks.push(self.commands.len());
             self.control([mask.kind, 0, 0], cmd::MASK);
         }
         let isolated = u32::from(group.isolated);
         self.control([isolated, 0, 0], cmd::OPEN);
-        self.nodes(&group.body);
+        self.nodes(group.body);
         self.control([group.opacity, group.mode, isolated], cmd::CLOSE);
         let end = self.commands.len();
         self.branches
@@ -130,17 +138,29 @@ impl Writer {
         self.commands.push([x, y, z, tag]);
     }
 
-    fn finish(mut self) -> Vec<[u32; 4]> {
+    /// `excess` is winding that the last command's base cannot hold.
+    fn push_outline(&mut self, outline: &Outline, excess: i32) {
+        let outlines = &self.arena.outlines;
+        let changes = outlines.changes(outline).iter().copied();
+        for (height, change) in std::iter::once((0, excess)).chain(changes) {
+            let line = Segment {
+                points: [height << 16, height << 16, LOWEST << 16],
+                down: change > 0,
+                line: true,
+            };
+            let lines = (0..change.unsigned_abs()).map(|_| encode(&line));
+            self.commands.extend(lines);
+        }
+        self.commands.extend(outlines.segments(outline).map(encode));
+    }
+
+    fn branch(self) {
         let count = self.commands.len();
         for (from, to) in self.branches {
             let over = if to < count { to - from - 1 } else { 0 };
             let over = u32::try_from(over).unwrap_or(0) & cmd::INDEX_MASK;
             self.commands[from][3] |= over;
         }
-        if let Some(last) = self.commands.last_mut() {
-            last[3] |= cmd::LAST_BIT;
-        }
-        self.commands
     }
 }
 
@@ -153,20 +173,6 @@ fn tag(entry: &Entry) -> u32 {
         _ => cmd::FULL,
     };
     (entry.index & cmd::INDEX_MASK) | kind | cmd::END_BIT | opaque
-}
-
-/// `excess` is winding that the last command's base cannot hold.
-fn push_outline(commands: &mut Vec<[u32; 4]>, outline: &Outline, excess: i32) {
-    let changes = outline.changes.iter().copied();
-    for (height, change) in std::iter::once((0, excess)).chain(changes) {
-        let line = Segment {
-            points: [height << 16, height << 16, LOWEST << 16],
-            down: change > 0,
-            line: true,
-        };
-        commands.extend((0..change.unsigned_abs()).map(|_| encode(&line)));
-    }
-    commands.extend(outline.segments.iter().map(encode));
 }
 
 fn encode(segment: &Segment) -> [u32; 4] {

@@ -1,17 +1,12 @@
-//! How fine the cells that evaluators read are to be: what a lookup walks against memory.
+//! How fine the cells that evaluators read are to be: what lookups walk against memory, for each cell
+//! of the file by its own content.
 
-use vtex_format::{CellWord, VtexFile};
+use vtex_format::VtexFile;
 
 use crate::layout::FilterMode;
 
-use super::list::List;
-use super::outline::Region;
-use super::{dilated, list_of, whole_cell};
-
 /// Deepest subdivision: each step halves the sides of cells.
-pub(super) const MAX_DEPTH: u32 = 5;
-/// Lists that stand for all of a file.
-const SAMPLES: usize = 192;
+pub(super) const MAX_DEPTH: u32 = 6;
 /// Cost of walking a command. The unit is a lookup in a cell of one colour (about 7.5 ns on two
 /// cores under llvmpipe, where a command takes 2 ns).
 const COMMAND_COST: f64 = 0.27;
@@ -19,99 +14,126 @@ const COMMAND_COST: f64 = 0.27;
 /// part of the Tiger on a slower machine. (The twin takes 4.8 times as long for one, but is not
 /// what most lookups run on.)
 const FOOTPRINT_COMMAND_COST: f64 = 0.45;
-/// Cost of a MiB. What it is worth in time is a judgement: each must save a mean lookup a command
-/// in fourteen. Twice this takes 10% off the rate in the busiest part of a coat of arms (`saxony`),
-/// and 2.4 of its 6.0 MiB.
-const MIB_COST: f64 = 0.02;
-/// No depth takes more words and commands than this, unless the file's own cells do.
-const MAX_MIB: f64 = 48.0;
+/// Cost of reading a second word.
+const BLOCK_COST: f64 = 0.05;
+/// Cost of a MiB. What it is worth in time is a judgement: each must save a mean lookup two commands
+/// in nine (docs/decisions/0019 has other values).
+const MIB_COST: f64 = 0.06;
+/// Of the commands that parts with outlines walk, this share at least is left in a mean quarter: an
+/// edge leaves half, because it goes through two quarters of four. Lists that are not worth a depth
+/// even so are not cut for it. Over 69 drawings that saves half of all cuts, and the depths cost a
+/// thousandth more by this model.
+const LEAST_LEFT: f64 = 0.4;
+/// No texture takes more bytes of words and commands than this, unless the file's own cells do.
+pub(super) const MAX_BYTES: usize = 48 << 20;
 
-/// Sums over sampled cells of the file for each depth.
+/// What decides depths.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Model {
+    /// Of a command in a walk of all lookups in a cell of the file.
+    command: f64,
+    /// Of a second word for all lookups in a cell of the file.
+    block: f64,
+    /// Of a byte.
+    byte: f64,
+    /// The greatest depth.
+    pub(super) max_depth: u32,
+    /// Whether every cell with an edge gets it.
+    forced: bool,
+}
+
+/// What a depth takes.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sums {
+pub(super) struct Sums {
     /// Commands of a list, weighted by the share of a cell that it serves.
-    walked: f64,
+    pub(super) walked: f64,
     /// Commands stored.
-    stored: f64,
+    pub(super) stored: f64,
 }
 
-/// How often `file`'s cells are to be halved.
-pub(super) fn choose(file: &VtexFile, filter: FilterMode) -> u32 {
-    let lists: Vec<u32> = file
-        .cells
-        .iter()
-        .filter_map(|&word| match CellWord::decode(word) {
-            Some(CellWord::List { offset_words }) => Some(offset_words),
-            _ => None,
-        })
-        .collect();
-    let step = lists.len().div_ceil(SAMPLES).max(1);
-    let mut sums = [Sums::default(); MAX_DEPTH as usize + 1];
-    let whole = whole_cell(file);
-    let dilated = |region: &Region| dilated(region, &whole, filter);
-    for &offset_words in lists.iter().step_by(step) {
-        add(
-            &mut sums,
-            &list_of(file, offset_words),
-            &whole,
-            1.0,
-            &dilated,
-        );
+/// A search for the best depth of one list.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Search {
+    model: Model,
+    /// Cells that show the list.
+    uses: f64,
+    pub(super) best_depth: u32,
+    best_cost: f64,
+}
+
+impl Model {
+    /// `halvings` as in [`crate::PackOptions`].
+    pub(super) fn new(file: &VtexFile, filter: FilterMode, halvings: Option<u32>) -> Self {
+        let cells = count(file.cells.len().max(1));
+        let command = if filter == FilterMode::Footprint {
+            FOOTPRINT_COMMAND_COST
+        } else {
+            COMMAND_COST
+        };
+        Self {
+            command: command / cells,
+            block: BLOCK_COST / cells,
+            byte: MIB_COST / f64::from(1 << 20),
+            max_depth: halvings.unwrap_or(MAX_DEPTH).min(MAX_DEPTH),
+            forced: halvings.is_some(),
+        }
     }
-    let [cells, sampled, lists] =
-        [file.cells.len(), lists.len().div_ceil(step), lists.len()].map(count);
-    let per_list = lists / sampled.max(1.0);
-    let command_cost = if filter == FilterMode::Footprint {
-        FOOTPRINT_COMMAND_COST
-    } else {
-        COMMAND_COST
-    };
-    let costs = (0..).zip(&sums).map(|(depth, sums)| {
-        let words = cells * f64::from(4_u32.pow(depth));
-        let mib = (4.0 * words + 16.0 * sums.stored * per_list) / f64::from(1 << 20);
-        let walked = sums.walked * per_list / cells.max(1.0);
-        let cost = walked * command_cost + mib * MIB_COST;
-        (depth, if mib > MAX_MIB { f64::INFINITY } else { cost })
-    });
-    let best = costs.min_by(|a, b| a.1.total_cmp(&b.1));
-    best.filter(|(_, cost)| cost.is_finite())
-        .map_or(0, |(depth, _)| depth)
+
+    /// One that takes fewer bytes; `None` where nothing is divided any more.
+    pub(super) fn coarser(mut self) -> Option<Self> {
+        self.max_depth = self.max_depth.checked_sub(1)?;
+        self.byte *= 4.0;
+        Some(self)
+    }
+
+    /// A search that begins with a list in whole cells, `uses` of them.
+    pub(super) fn search(&self, whole: Sums, uses: usize) -> Search {
+        let mut search = Search {
+            model: *self,
+            uses: count(uses),
+            best_depth: 0,
+            best_cost: f64::INFINITY,
+        };
+        search.best_cost = search.cost(0, whole);
+        search
+    }
 }
 
-/// Adds `list`, which shows in `region`, `share` of a cell, to the sums from its depth on;
-/// `dilated` says what the list of a region serves.
-fn add(
-    sums: &mut [Sums],
-    list: &List,
-    region: &Region,
-    share: f64,
-    dilated: &impl Fn(&Region) -> Region,
-) {
-    let Some((sum, deeper)) = sums.split_first_mut() else {
-        return;
-    };
-    let commands = if list.solid().is_some() {
-        0.0
-    } else {
-        count(list.command_count())
-    };
-    sum.walked += share * commands;
-    sum.stored += commands;
-    if list.has_outlines() {
-        for quarter in &region.quarters() {
-            let inner = list.within(&dilated(quarter));
-            add(deeper, &inner, quarter, 0.25 * share, dilated);
+impl Search {
+    fn cost(&self, depth: u32, sums: Sums) -> f64 {
+        let (words, block) = match depth {
+            0 => (0.0, 0.0),
+            _ => (f64::from(4_u32.pow(depth)), self.model.block),
+        };
+        self.uses * (sums.walked * self.model.command + block)
+            + self.model.byte * (4.0 * words + 16.0 * sums.stored)
+    }
+
+    /// Whether `depth` can be better than the best one: `present` is what the depth before takes,
+    /// and `settled` what of it stays.
+    pub(super) fn promises(&self, depth: u32, settled: Sums, present: Sums) -> bool {
+        let left = LEAST_LEFT * (present.walked - settled.walked);
+        let next = Sums {
+            walked: settled.walked + left,
+            stored: present.stored,
+        };
+        self.model.forced || self.cost(depth, next) < self.best_cost
+    }
+
+    /// Takes note of what `depth` takes; false where the search is at its end.
+    pub(super) fn visit(&mut self, depth: u32, sums: Sums) -> bool {
+        let cost = self.cost(depth, sums);
+        if self.model.forced || cost < self.best_cost {
+            self.best_cost = cost;
+            self.best_depth = depth;
         }
-    } else {
-        // What has no outline is not divided: the same list serves all its parts.
-        for sum in deeper {
-            sum.walked += share * commands;
-            sum.stored += commands;
-        }
+        // The first block costs a second word for what the next depths gain.
+        let patience = if self.best_depth == 0 { 1 } else { 0 };
+        depth < self.model.max_depth && depth - self.best_depth <= patience
     }
 }
 
 #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-fn count(commands: usize) -> f64 {
+pub(super) fn count(commands: usize) -> f64 {
     commands as f64
 }

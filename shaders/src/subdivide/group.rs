@@ -2,15 +2,15 @@
 
 use vtex_format::BlendMode;
 
-use super::list::{Node, within};
-use super::outline::Region;
+use super::list::{Arena, Node};
+use super::outline::Span;
 
 /// Blocks composited as one.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Group {
-    pub(super) masks: Vec<Mask>,
+    pub(super) masks: Span,
     pub(super) isolated: bool,
-    pub(super) body: Vec<Node>,
+    pub(super) body: Span,
     /// Number of a [`BlendMode`].
     pub(super) mode: u32,
     /// f32 bits, in \[0, 1\].
@@ -18,46 +18,58 @@ pub(super) struct Group {
 }
 
 /// What a group's weight is multiplied with.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Mask {
     /// Number of a [`vtex_format::MaskKind`].
     pub(super) kind: u32,
-    pub(super) body: Vec<Node>,
+    pub(super) body: Span,
 }
 
 impl Group {
-    /// What its masks and it itself hold.
-    pub(super) fn bodies(&self) -> impl Iterator<Item = &Vec<Node>> {
-        let masks = self.masks.iter().map(|mask| &mask.body);
-        masks.chain([&self.body])
+    pub(super) fn masks(self, arena: &Arena) -> &[Mask] {
+        &arena.masks[self.masks.range()]
     }
 
-    /// What shows in a region: nothing where its body or a mask is empty.
-    pub(super) fn within(&self, region: &Region) -> Vec<Node> {
+    /// What its masks and it itself hold.
+    pub(super) fn bodies(self, arena: &Arena) -> impl Iterator<Item = Span> {
+        let masks = self.masks(arena).iter().map(|mask| mask.body);
+        masks.chain([self.body])
+    }
+
+    /// Makes pending what shows: nothing where its body or a mask is empty.
+    pub(super) fn cut(self, arena: &mut Arena, x: [f64; 2]) {
         if self.opacity == 0 {
-            return Vec::new();
+            return;
         }
-        let body = within(&self.body, region);
-        if body.is_empty() || self.is_plain() {
-            return body;
+        let first = arena.pending.len();
+        arena.cut(self.body, x);
+        if arena.pending.len() == first || self.is_plain() {
+            return;
         }
-        let masks = self.masks.iter().map(|mask| Mask {
-            kind: mask.kind,
-            body: within(&mask.body, region),
-        });
-        let masks: Vec<Mask> = masks.collect();
-        if masks.iter().any(|mask| mask.body.is_empty()) {
-            return Vec::new();
+        let body = arena.keep(first);
+        let mut masks = Vec::new();
+        for at in self.masks.range() {
+            let mask = arena.masks[at];
+            arena.cut(mask.body, x);
+            if arena.pending.len() == first {
+                return;
+            }
+            masks.push(Mask {
+                kind: mask.kind,
+                body: arena.keep(first),
+            });
         }
-        vec![Node::Group(Self {
-            masks,
+        let first = arena.masks.len();
+        arena.masks.extend(masks);
+        arena.pending.push(Node::Group(Self {
+            masks: Span::from(first, &arena.masks),
             body,
-            ..*self
-        })]
+            ..self
+        }));
     }
 
     /// Whether its blocks show as they would without it.
-    fn is_plain(&self) -> bool {
+    fn is_plain(self) -> bool {
         let normal = self.mode == BlendMode::Normal as u32;
         let whole = f32::from_bits(self.opacity) >= 1.0;
         self.masks.is_empty() && !self.isolated && normal && whole

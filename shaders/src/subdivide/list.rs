@@ -2,20 +2,19 @@
 
 use vtex_format::{Block, Entry, EntryKind, MAX_ENTRIES_PER_CELL, OPEN_ISOLATED, list_blocks};
 
-use super::clip::Clip;
-use super::commands::{Order, commands};
+use super::clip::{Branch, Clip};
 use super::group::{Group, Mask};
-use super::outline::{Outline, Region};
+use super::outline::{Outline, Outlines, Span};
 
 /// An entry that draws, with its outline if it has one.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Part {
     pub(super) entry: Entry,
     pub(super) outline: Option<Outline>,
 }
 
 /// A block of a list, as [`Block`].
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Node {
     Draw(Part),
     Clip(Clip),
@@ -23,14 +22,36 @@ pub(super) enum Node {
 }
 
 /// What shows in a region, front to back.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct List {
-    nodes: Vec<Node>,
+    pub(super) nodes: Span,
+    /// The segments of its outlines, perhaps among others.
+    places: Span,
 }
 
-impl List {
+/// What the lists of a cell of the file and of its parts are made of. Its memory serves the next cell
+/// again.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Arena {
+    pub(super) nodes: Vec<Node>,
+    pub(super) branches: Vec<Branch>,
+    pub(super) masks: Vec<Mask>,
+    pub(super) outlines: Outlines,
+    /// Nodes of bodies and lists that are not complete.
+    pub(super) pending: Vec<Node>,
+}
+
+impl Arena {
+    /// Forgets all lists.
+    pub(super) fn clear(&mut self) {
+        self.nodes.clear();
+        self.branches.clear();
+        self.masks.clear();
+        self.outlines.clear();
+    }
+
     /// The list of a whole cell; `words` starts at its first entry.
-    pub(super) fn decode(words: &[u32], curves: &[u32]) -> Self {
+    pub(super) fn decode(&mut self, words: &[u32], curves: &[u32]) -> List {
         let mut entries = Vec::new();
         for &words in words.as_chunks().0 {
             let Some(entry) = Entry::decode(words) else {
@@ -41,113 +62,103 @@ impl List {
                 break;
             }
         }
-        let stored = Stored { entries, curves };
-        let entries = &stored.entries;
         let draws = |at: &usize| entries[*at].kind.draws();
         let ungrouped = || (0..entries.len()).filter(draws).map(Block::Draw).collect();
         // What no validator lets in shows without what clips and groups it.
         let blocks = if (0..entries.len()).all(|at| draws(&at)) {
             ungrouped()
         } else {
-            list_blocks(entries).unwrap_or_else(|_| ungrouped())
+            list_blocks(&entries).unwrap_or_else(|_| ungrouped())
         };
-        Self {
-            nodes: stored.nodes(&blocks),
+        let place = self.outlines.place_count();
+        let entries = &entries;
+        let nodes = Stored { entries, curves }.nodes(self, &blocks);
+        self.list(nodes, place)
+    }
+
+    /// A list whose segments are those from `place` on.
+    fn list(&self, nodes: Span, place: usize) -> List {
+        List {
+            nodes,
+            places: self.outlines.places_from(place),
+        }
+    }
+
+    /// Prepares [`Self::within`] for parts of these heights of the region that the list is for.
+    pub(super) fn trace(&mut self, list: &List, y: [f64; 2]) {
+        self.outlines.trace(list.places, y);
+    }
+
+    /// What of the list shows between two x, within the heights of [`Self::trace`].
+    pub(super) fn within(&mut self, list: &List, x: [f64; 2]) -> List {
+        let place = self.outlines.place_count();
+        let first = self.pending.len();
+        self.cut(list.nodes, x);
+        let nodes = self.keep(first);
+        self.list(nodes, place)
+    }
+
+    /// The pending nodes from `first` on as a body or list.
+    pub(super) fn keep(&mut self, first: usize) -> Span {
+        let node = self.nodes.len();
+        self.nodes.extend(self.pending.drain(first..));
+        Span::from(node, &self.nodes)
+    }
+
+    /// Makes pending what of `nodes` shows, as far as the first that hides all behind it.
+    pub(super) fn cut(&mut self, nodes: Span, x: [f64; 2]) {
+        let first = self.pending.len();
+        for at in nodes.range() {
+            match self.nodes[at] {
+                Node::Draw(part) => {
+                    let part = part.within(&mut self.outlines, x);
+                    self.pending.extend(part.map(Node::Draw));
+                }
+                Node::Clip(clip) => clip.cut(self, x),
+                Node::Group(group) => group.cut(self, x),
+            }
+            if let Some(Node::Draw(part)) = self.pending[first..].last()
+                && part.entry.kind == EntryKind::Full
+                && part.entry.opaque
+            {
+                break;
+            }
         }
     }
 
     /// Whether a part of the region can have less to show.
-    pub(super) fn has_outlines(&self) -> bool {
-        any_outline(&self.nodes)
-    }
-
-    /// Commands a lookup walks at most.
-    pub(super) fn command_count(&self) -> usize {
-        command_count(&self.nodes)
-    }
-
-    /// What shows in `region`, a part of the region this is for.
-    pub(super) fn within(&self, region: &Region) -> Self {
-        Self {
-            nodes: within(&self.nodes, region),
-        }
+    pub(super) fn has_outlines(&self, nodes: Span) -> bool {
+        self.nodes[nodes.range()].iter().any(|node| match node {
+            Node::Draw(part) => part.outline.is_some(),
+            Node::Clip(clip) => clip.has_outlines(self),
+            Node::Group(group) => group.bodies(self).any(|body| self.has_outlines(body)),
+        })
     }
 
     /// Whether some blocks are composited as one.
-    pub(super) fn has_groups(&self) -> bool {
-        any_group(&self.nodes)
+    pub(super) fn has_groups(&self, nodes: Span) -> bool {
+        self.nodes[nodes.range()].iter().any(|node| match node {
+            Node::Draw(_) => false,
+            Node::Clip(clip) => self.has_groups(clip.body),
+            Node::Group(_) => true,
+        })
     }
 
     /// The paint that fills the region, if nothing else shows.
-    pub(super) fn solid(&self) -> Option<u32> {
-        match self.nodes.as_slice() {
+    pub(super) fn solid(&self, nodes: Span) -> Option<u32> {
+        match &self.nodes[nodes.range()] {
             [Node::Draw(part)] if part.entry.kind == EntryKind::Full => Some(part.entry.index),
             _ => None,
         }
     }
-
-    /// Whether nothing shows.
-    pub(super) fn is_empty(&self) -> bool {
-        self.nodes.is_empty()
-    }
-
-    /// The commands, four words each.
-    pub(super) fn commands(&self, order: Order) -> Vec<[u32; 4]> {
-        commands(&self.nodes, order)
-    }
-}
-
-fn any_group(nodes: &[Node]) -> bool {
-    nodes.iter().any(|node| match node {
-        Node::Draw(_) => false,
-        Node::Clip(clip) => any_group(&clip.body),
-        Node::Group(_) => true,
-    })
-}
-
-pub(super) fn any_outline(nodes: &[Node]) -> bool {
-    nodes.iter().any(|node| match node {
-        Node::Draw(part) => part.outline.is_some(),
-        Node::Clip(clip) => clip.has_outlines(),
-        Node::Group(group) => group.bodies().any(|body| any_outline(body)),
-    })
-}
-
-pub(super) fn command_count(nodes: &[Node]) -> usize {
-    let of = |node: &Node| match node {
-        Node::Draw(part) => part.outline.as_ref().map_or(1, Outline::command_count),
-        Node::Clip(clip) => clip.command_count(),
-        // Each body lies between two commands.
-        Node::Group(group) => group.bodies().map(|body| 2 + command_count(body)).sum(),
-    };
-    nodes.iter().map(of).sum()
-}
-
-/// What of `nodes` shows in a region, as far as the first that hides all behind it.
-pub(super) fn within(nodes: &[Node], region: &Region) -> Vec<Node> {
-    let mut inner = Vec::new();
-    for node in nodes {
-        match node {
-            Node::Draw(part) => inner.extend(part.within(region).map(Node::Draw)),
-            Node::Clip(clip) => inner.extend(clip.within(region)),
-            Node::Group(group) => inner.extend(group.within(region)),
-        }
-        if let Some(Node::Draw(part)) = inner.last()
-            && part.entry.kind == EntryKind::Full
-            && part.entry.opaque
-        {
-            break;
-        }
-    }
-    inner
 }
 
 impl Part {
-    fn within(&self, region: &Region) -> Option<Self> {
-        let Some(outline) = &self.outline else {
-            return Some(self.clone());
+    fn within(self, outlines: &mut Outlines, x: [f64; 2]) -> Option<Self> {
+        let Some(outline) = self.outline else {
+            return Some(self);
         };
-        let outline = outline.within(region);
+        let outline = outlines.within(outline, x);
         if !outline.is_uniform() {
             return Some(Self {
                 entry: self.entry,
@@ -168,32 +179,36 @@ impl Part {
 
 /// What blocks name.
 struct Stored<'a> {
-    entries: Vec<Entry>,
+    entries: &'a [Entry],
     curves: &'a [u32],
 }
 
 impl Stored<'_> {
-    fn nodes(&self, blocks: &[Block]) -> Vec<Node> {
-        blocks.iter().map(|block| self.node(block)).collect()
+    fn nodes(&self, arena: &mut Arena, blocks: &[Block]) -> Span {
+        let first = arena.pending.len();
+        for block in blocks {
+            let node = self.node(arena, block);
+            arena.pending.push(node);
+        }
+        arena.keep(first)
     }
 
-    fn node(&self, block: &Block) -> Node {
+    fn node(&self, arena: &mut Arena, block: &Block) -> Node {
         match block {
             Block::Draw(at) => {
                 let entry = self.entries[*at];
                 let has_record = entry.kind == EntryKind::Curves;
-                let outline = has_record.then(|| self.outline(*at)).flatten();
+                let outline = has_record.then(|| self.outline(arena, *at)).flatten();
                 Node::Draw(Part { entry, outline })
             }
             Block::Clip { branches, body } => {
-                let outline = |at| self.outline(at).unwrap_or_default();
-                let branches = branches.clone();
-                Node::Clip(Clip::new(
-                    &self.entries,
-                    branches,
-                    outline,
-                    self.nodes(body),
-                ))
+                let all = branches.clone().map(|at| {
+                    let outline = self.outline(arena, at).unwrap_or_default();
+                    Branch::new(self.entries, branches, at, outline)
+                });
+                let all: Vec<Branch> = all.collect();
+                let body = self.nodes(arena, body);
+                Node::Clip(Clip::new(arena, &all, body))
             }
             Block::Group {
                 masks,
@@ -201,14 +216,17 @@ impl Stored<'_> {
                 body,
                 close,
             } => {
-                let mask = |mask: &vtex_format::MaskBlock| Mask {
+                let masks = masks.iter().map(|mask| Mask {
                     kind: self.entries[mask.close].data,
-                    body: self.nodes(&mask.body),
-                };
+                    body: self.nodes(arena, &mask.body),
+                });
+                let masks: Vec<Mask> = masks.collect();
+                let first = arena.masks.len();
+                arena.masks.extend(masks);
                 Node::Group(Group {
-                    masks: masks.iter().map(mask).collect(),
+                    masks: Span::from(first, &arena.masks),
                     isolated: self.entries[*open].data == OPEN_ISOLATED,
-                    body: self.nodes(body),
+                    body: self.nodes(arena, body),
                     mode: self.entries[*close].index,
                     opacity: self.entries[*close].data,
                 })
@@ -216,8 +234,9 @@ impl Stored<'_> {
         }
     }
 
-    fn outline(&self, at: usize) -> Option<Outline> {
+    fn outline(&self, arena: &mut Arena, at: usize) -> Option<Outline> {
         let place = self.entries[at].data as usize;
-        self.curves.get(place..).and_then(Outline::decode)
+        let words = self.curves.get(place..)?;
+        arena.outlines.decode(words)
     }
 }

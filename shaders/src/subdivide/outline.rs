@@ -1,10 +1,14 @@
 //! The outline of one entry inside a part of its cell.
 
+use std::ops::Range;
+
 use vtex_format::{CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CurveHeader};
 
 /// Units by which evaluators' f32 arithmetic may misplace a lookup, with some to spare: a part
 /// serves lookups this far outside it.
 const SLACK_UNITS: f64 = 1.0;
+/// The extent of a segment that no lookup of a region can tell from none.
+const NOWHERE: [f64; 2] = [f64::INFINITY; 2];
 
 /// A part of a cell's box, in units of the box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,25 +30,47 @@ pub(super) struct Segment {
     pub(super) line: bool,
 }
 
+/// A range of an arena.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Span {
+    first: u32,
+    end: u32,
+}
+
 /// What of an outline counts in a region.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Outline {
     /// Winding left of all segments at the region's top.
     pub(super) base: i32,
-    /// Heights below the top at which that winding changes, ascending, and by how much.
-    pub(super) changes: Vec<(u32, i32)>,
-    /// Segments whose sides differ for lookups of the region.
-    pub(super) segments: Vec<Segment>,
     /// Inside where the winding is odd instead of not zero.
     pub(super) even_odd: bool,
+    /// Heights below the top at which that winding changes, ascending, and by how much.
+    changes: Span,
+    /// Places of the segments whose sides differ for lookups of the region.
+    places: Span,
 }
 
-/// Where a segment lies as seen from a region.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Side {
-    Left,
-    Inside,
-    Beyond,
+/// What the outlines of a cell of the file and of its parts are made of. Its memory serves the next
+/// cell again.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Outlines {
+    /// Those of the whole cell.
+    segments: Vec<Segment>,
+    /// For each segment of each outline, which it is.
+    places: Vec<u32>,
+    changes: Vec<(u32, i32)>,
+    trace: Trace,
+}
+
+/// Where segments lie between two heights.
+#[derive(Clone, Debug, Default)]
+struct Trace {
+    /// The first one's place.
+    first: u32,
+    /// Top and bottom.
+    y: [f64; 2],
+    /// For each segment the least and the greatest x.
+    x: Vec<[f64; 2]>,
 }
 
 impl Region {
@@ -64,13 +90,13 @@ impl Region {
     }
 
     /// The quarters, row by row.
-    pub(super) fn quarters(&self) -> [Self; 4] {
+    pub(super) fn quarters(&self) -> [[Self; 2]; 2] {
         let halves = |[low, high]: [f64; 2]| {
             let middle = 0.5 * (low + high);
             [[low, middle], [middle, high]]
         };
-        let ([left, right], [top, bottom]) = (halves(self.x), halves(self.y));
-        [[left, top], [right, top], [left, bottom], [right, bottom]].map(|[x, y]| Self { x, y })
+        let columns = halves(self.x);
+        halves(self.y).map(|y| columns.map(|x| Self { x, y }))
     }
 }
 
@@ -110,33 +136,57 @@ impl Segment {
         s * s * ax + 2.0 * s * t * cx + t * t * bx
     }
 
-    /// Which side of the box it lies on where it passes the box's heights.
-    fn side(&self, region: &Region) -> Side {
-        let ([left, right], [top, bottom]) = (region.x, region.y);
+    /// The least and the greatest x between two heights; `None` where it passes neither them nor
+    /// what lies between.
+    fn extent(&self, [top, bottom]: [f64; 2]) -> Option<[f64; 2]> {
         let (first, last) = (f64::from(self.top()), f64::from(self.bottom()));
-        if last < top || first > bottom {
-            return Side::Beyond;
+        // A horizontal one changes no winding.
+        if last <= first || last < top || first > bottom {
+            return None;
         }
-        let [upper, lower] = [first.max(top), last.min(bottom)].map(|y| self.x_at(y));
-        // Monotone, so the ends of the part span its box; a horizontal one has two ends there.
-        let [from, to] = if last > first {
-            [upper, lower]
+        // Monotone, so the ends of the part span its box.
+        let from = if first < top {
+            self.x_at(top)
         } else {
-            [self.point(0)[0], self.point(2)[0]]
+            self.point(0)[0]
         };
-        if from.max(to) < left {
-            Side::Left
-        } else if from.min(to) > right {
-            Side::Beyond
+        let to = if last > bottom {
+            self.x_at(bottom)
         } else {
-            Side::Inside
-        }
+            self.point(2)[0]
+        };
+        Some([from.min(to), from.max(to)])
     }
 }
 
-impl Outline {
+impl Span {
+    /// The end of an arena from its element `first` on.
+    pub(super) fn from<T>(first: usize, arena: &[T]) -> Self {
+        let index = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
+        Self {
+            first: index(first),
+            end: index(arena.len()),
+        }
+    }
+
+    pub(super) fn range(self) -> Range<usize> {
+        self.first as usize..self.end as usize
+    }
+
+    pub(super) fn is_empty(self) -> bool {
+        self.first >= self.end
+    }
+}
+
+impl Outlines {
+    pub(super) fn clear(&mut self) {
+        self.segments.clear();
+        self.places.clear();
+        self.changes.clear();
+    }
+
     /// The record at the start of `words`; `None` when it is not one.
-    pub(super) fn decode(words: &[u32]) -> Option<Self> {
+    pub(super) fn decode(&mut self, words: &[u32]) -> Option<Outline> {
         let (head, rest) = words.split_at_checked(CURVE_HEADER_WORDS as usize)?;
         let header = CurveHeader::decode([head[0], head[1]])?;
         let (steps, rest) = rest.split_at_checked(header.step_count as usize)?;
@@ -155,71 +205,123 @@ impl Outline {
             down: index < header.down_quad_count,
             line: false,
         });
+        let (first, place) = (self.changes.len(), self.places.len());
         let change = |&step: &u32| (step & 0xffff, step.cast_signed() >> 16);
-        let mut outline = Self {
+        self.changes.extend(steps.iter().map(change));
+        self.changes[first..].sort_unstable();
+        for segment in lines.chain(quads) {
+            let index = self.segments.len();
+            self.places.push(u32::try_from(index).unwrap_or(u32::MAX));
+            self.segments.push(segment);
+        }
+        Some(Outline {
             base: header.base_winding,
-            changes: steps.iter().map(change).collect(),
-            segments: lines.chain(quads).collect(),
             even_odd: header.even_odd,
-        };
-        outline.changes.sort_unstable();
-        Some(outline)
+            changes: Span::from(first, &self.changes),
+            places: Span::from(place, &self.places),
+        })
     }
 
-    /// What of it counts in `region`, a part of the region it is for.
-    pub(super) fn within(&self, region: &Region) -> Self {
-        let near = region.dilated(SLACK_UNITS);
-        let mut inner = Self {
-            base: self.base,
-            changes: self.changes.clone(),
-            segments: Vec::new(),
-            even_odd: self.even_odd,
-        };
-        for segment in &self.segments {
-            let crosses = segment.bottom() > segment.top();
-            // A horizontal one changes no winding.
-            if !crosses {
-                continue;
-            }
-            let side = segment.side(&near);
-            if side == Side::Inside {
-                inner.segments.push(*segment);
-            } else if side == Side::Left {
+    /// How many segments all outlines so far have.
+    pub(super) fn place_count(&self) -> usize {
+        self.places.len()
+    }
+
+    /// All segments from place `first` on.
+    pub(super) fn places_from(&self, first: usize) -> Span {
+        Span::from(first, &self.places)
+    }
+
+    /// Prepares [`Self::within`] for outlines with segments at `places` and regions of these heights.
+    pub(super) fn trace(&mut self, places: Span, y: [f64; 2]) {
+        self.trace.first = places.first;
+        self.trace.y = [y[0] - SLACK_UNITS, y[1] + SLACK_UNITS];
+        self.trace.x.clear();
+        for &place in &self.places[places.range()] {
+            let extent = self.segments[place as usize].extent(self.trace.y);
+            self.trace.x.push(extent.unwrap_or(NOWHERE));
+        }
+    }
+
+    /// What of an outline counts between two x, within the heights of [`Self::trace`].
+    pub(super) fn within(&mut self, outline: Outline, x: [f64; 2]) -> Outline {
+        let [left, right] = [x[0] - SLACK_UNITS, x[1] + SLACK_UNITS];
+        let (change, place) = (self.changes.len(), self.places.len());
+        let mut base = outline.base;
+        for at in outline.changes.range() {
+            base += self.change(self.changes[at]);
+        }
+        for at in outline.places.range() {
+            let [least, greatest] = self.trace.x[at - self.trace.first as usize];
+            if greatest < left {
+                let segment = self.segments[self.places[at] as usize];
                 let change = if segment.down { 1 } else { -1 };
-                inner.changes.push((segment.top(), change));
-                inner.changes.push((segment.bottom(), -change));
+                base += self.change((segment.top(), change));
+                base += self.change((segment.bottom(), -change));
+            } else if least <= right {
+                self.places.push(self.places[at]);
             }
         }
-        inner.fold_changes(near.y);
-        inner
+        self.join_changes(change);
+        Outline {
+            base,
+            even_odd: outline.even_odd,
+            changes: Span::from(change, &self.changes),
+            places: Span::from(place, &self.places),
+        }
     }
 
-    /// Changes above the heights go into the base, those below vanish, equal ones come together.
-    fn fold_changes(&mut self, [top, bottom]: [f64; 2]) {
-        self.changes.sort_unstable();
-        let mut kept: Vec<(u32, i32)> = Vec::new();
-        for &(height, change) in &self.changes {
-            if f64::from(height) <= top {
-                self.base += change;
-            } else if f64::from(height) <= bottom {
-                match kept.last_mut() {
-                    Some(last) if last.0 == height => last.1 += change,
-                    _ => kept.push((height, change)),
+    /// A change above the heights of the trace goes into the base, whose growth comes back; one
+    /// below them vanishes.
+    fn change(&mut self, (height, change): (u32, i32)) -> i32 {
+        let [top, bottom] = self.trace.y;
+        if f64::from(height) <= top {
+            return change;
+        }
+        if f64::from(height) <= bottom {
+            self.changes.push((height, change));
+        }
+        0
+    }
+
+    /// Changes from `first` on in ascending order, those at one height as one.
+    fn join_changes(&mut self, first: usize) {
+        if self.changes.len() == first {
+            return;
+        }
+        self.changes[first..].sort_unstable();
+        let mut end = first;
+        for at in first..self.changes.len() {
+            let (height, change) = self.changes[at];
+            match self.changes[first..end].last_mut() {
+                Some(last) if last.0 == height => last.1 += change,
+                Some(last) if last.1 == 0 => *last = (height, change),
+                _ => {
+                    self.changes[end] = (height, change);
+                    end += 1;
                 }
             }
         }
-        kept.retain(|change| change.1 != 0);
-        self.changes = kept;
+        if self.changes[end - 1].1 == 0 {
+            end -= 1;
+        }
+        self.changes.truncate(end);
     }
 
-    /// Commands that it takes at least.
-    pub(super) fn command_count(&self) -> usize {
-        (self.segments.len() + self.changes.len()).max(1)
+    pub(super) fn changes(&self, outline: &Outline) -> &[(u32, i32)] {
+        &self.changes[outline.changes.range()]
     }
 
+    pub(super) fn segments(&self, outline: &Outline) -> impl Iterator<Item = &Segment> {
+        let places = &self.places[outline.places.range()];
+        places.iter().map(|&place| &self.segments[place as usize])
+    }
+}
+
+impl Outline {
     /// Whether no lookup of the region meets an edge.
     pub(super) fn is_uniform(&self) -> bool {
-        self.segments.is_empty() && self.changes.is_empty()
+        self.places.is_empty() && self.changes.is_empty()
     }
 
     /// Whether the base alone fills.

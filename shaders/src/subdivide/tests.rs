@@ -2,11 +2,56 @@
 
 use vtex_format::CurveHeader;
 
-use super::commands::Order;
-use super::list::List;
+use super::commands::{Order, write};
+use super::list::{Arena, List};
 use super::outline::Region;
 use crate::layout::cmd;
 use crate::record;
+
+/// A list and what it is made of.
+#[derive(Clone)]
+pub(super) struct Sample {
+    arena: Arena,
+    list: List,
+}
+
+impl Sample {
+    pub(super) fn decode(words: &[u32], curves: &[u32]) -> Self {
+        let mut arena = Arena::default();
+        let list = arena.decode(words, curves);
+        Self { arena, list }
+    }
+
+    pub(super) fn within(&self, region: &Region) -> Self {
+        let mut arena = self.arena.clone();
+        arena.trace(&self.list, region.y);
+        let list = arena.within(&self.list, region.x);
+        Self { arena, list }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.list.nodes.is_empty()
+    }
+
+    pub(super) fn solid(&self) -> Option<u32> {
+        self.arena.solid(self.list.nodes)
+    }
+
+    pub(super) fn has_groups(&self) -> bool {
+        self.arena.has_groups(self.list.nodes)
+    }
+
+    pub(super) fn commands(&self) -> Vec<[u32; 4]> {
+        let mut commands = Vec::new();
+        write(
+            &self.arena,
+            self.list.nodes,
+            Order::FrontToBack,
+            &mut commands,
+        );
+        commands
+    }
+}
 
 /// A generator that needs no crate.
 struct Random(u64);
@@ -98,7 +143,7 @@ fn parts_of_a_cell_fill_as_the_record_does() {
     let mut both = [0; 2];
     for round in 0..400 {
         let record = random_record(&mut random, 1 + round % 12);
-        let list = List::decode(&entry_words(3), &record);
+        let list = Sample::decode(&entry_words(3), &record);
         for depth in 0..5 {
             let region = region(&mut random, depth);
             let inner = list.within(&region);
@@ -114,7 +159,7 @@ fn parts_of_a_cell_fill_as_the_record_does() {
                 let got = if inner.is_empty() {
                     false
                 } else {
-                    inner.solid().is_some() || fills(&inner.commands(Order::FrontToBack), p)
+                    inner.solid().is_some() || fills(&inner.commands(), p)
                 };
                 assert_eq!(got, expected, "round {round}, depth {depth}, {p:?}");
                 both[usize::from(expected)] += 1;
@@ -135,7 +180,7 @@ fn windings_beyond_an_item_are_lines_beside_the_cell() {
         };
         let mut words = header.encode().expect("fits").to_vec();
         words.push(1000 | 1 << 16);
-        let commands = List::decode(&entry_words(0), &words).commands(Order::FrontToBack);
+        let commands = Sample::decode(&entry_words(0), &words).commands();
         assert!(commands.iter().all(|words| words[3] & cmd::LINE_BIT != 0));
         for (y, added) in [(999.0, 0), (1000.0, 1), (4000.0, 1)] {
             let odd = (base_winding + added) & 1 != 0;

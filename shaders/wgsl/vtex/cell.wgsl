@@ -1,13 +1,41 @@
+//!use core/layout
 //!use vtex/texture
-// The fine cells.
+// The cells: a grid of base cells, and blocks of finer ones where a base cell shows more.
 
-// Column and row of the fine cell that `p`, in cells, lies in.
-fn vtex_cell_fine(vt: VtexTexture, p: vec2f) -> vec2f {
-    return clamp(floor(p * vt.fine.z), vec2f(0.0), vt.fine.xy - 1.0);
+struct VtexCell {
+    // Never that of a block.
+    word: u32,
+    // How many cells of this size lie along one of the file's, a power of two, as a float's bits.
+    per_cell: u32,
+    // Its column and row among cells of this size.
+    at: vec2f,
 }
 
-fn vtex_cell_word(vt: VtexTexture, fine: vec2f) -> u32 {
+// The cell that `p`, in the file's cells, lies in.
+fn vtex_cell(vt: VtexTexture, p: vec2f) -> VtexCell {
+    let place = clamp(p, vec2f(0.0), vt.base.xy);
     // Through signed integers, which processors convert to at once.
-    let index = i32(fine.y) * i32(vt.fine.x) + i32(fine.x);
-    return vtex_word(vt, vt.cells + bitcast<u32>(index));
+    let base = vec2i(place * vt.base.z);
+    let word = vtex_word(vt, vt.cells + bitcast<u32>(base.y * i32(vt.base.w) + base.x));
+    let divided = (word >> VTEX_CELL_BLOCK_SHIFT) == VTEX_CELL_BLOCK;
+    let depth = select(0u, (word >> VTEX_CELL_DEPTH_SHIFT) & VTEX_CELL_DEPTH_MASK, divided);
+    let per_cell = bitcast<u32>(vt.base.z) + (depth << VTEX_CELL_EXPONENT_SHIFT);
+    let at = floor(place * bitcast<f32>(per_cell));
+    var cell = VtexCell(word, per_cell, at);
+    if divided {
+        let inside = bitcast<vec2u>(vec2i(at)) & vec2u((1u << depth) - 1u);
+        let first = vt.cells + (word & VTEX_CELL_PLACE_MASK) * VTEX_CELL_BLOCK_WORDS;
+        cell.word = vtex_word(vt, first + (inside.y << depth) + inside.x);
+    }
+    return cell;
+}
+
+// The side of a cell, in the file's cells: exactly 1 / per_cell.
+fn vtex_cell_side(cell: VtexCell) -> f32 {
+    return bitcast<f32>((254u << VTEX_CELL_EXPONENT_SHIFT) - cell.per_cell);
+}
+
+// The corner of the file's cell that `p` lies in.
+fn vtex_cell_corner(vt: VtexTexture, p: vec2f) -> vec2f {
+    return floor(clamp(p, vec2f(0.0), vt.base.xy));
 }

@@ -9,8 +9,7 @@
 // Linear light, premultiplied.
 fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
     let p = lookup.uv * vt.cell_from_uv.xy + vt.cell_from_uv.zw;
-    let fine = vtex_cell_fine(vt, p);
-    let word = vtex_cell_word(vt, fine);
-    let samples = vtex_samples_in_cell(vt, lookup, p - floor(fine * vt.fine.w));
-    return vtex_lists(vt, lookup, word, samples, VTEX_SAMPLES_EVERY).sum;
+    let cell = vtex_cell(vt, p);
+    let samples = vtex_samples_in_cell(vt, lookup, p - vtex_cell_corner(vt, p));
+    return vtex_lists(vt, lookup, cell.word, samples, VTEX_SAMPLES_EVERY).sum;
 }

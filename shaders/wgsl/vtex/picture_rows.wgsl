@@ -8,14 +8,16 @@
 //!use vtex/resolved
 //!use vtex/paint
 //!use vtex/lists
-// The mean of what the cells show to a footprint's samples. Each pass takes the samples in one fine
-// cell, or in a square of such as show the same, or those beyond one side of the canvas, which do not
-// count. The first pass is that of the lookup's own place, and mostly the only one.
+// The mean of what the cells show to a footprint's samples. Each pass takes the samples in one cell of
+// the packed words, or in a square around it that shows the same, or those beyond one side of the
+// canvas, which do not count. The first pass is that of the lookup's own place, and mostly the only one.
 
 // Farther than any place in cells.
 const VTEX_PICTURE_FAR: f32 = 1e30;
-// By how much of its side the list of a fine cell goes beyond it.
+// By how much of its side the list of a cell goes beyond it.
 const VTEX_PICTURE_OVERLAP: f32 = f32(VTEX_CELL_OVERLAP) / 16.0;
+// What of its side a cell's clearance is counted in.
+const VTEX_PICTURE_PART: f32 = 1.0 / f32(VTEX_CELL_CLEARANCE_PARTS);
 
 // A footprint and the canvas, in cells, from the corner of the cell that the lookup's place lies in.
 struct VtexPictureCanvas {
@@ -44,18 +46,19 @@ struct VtexPicturePass {
 
 // The pass for what lies at `place`.
 fn vtex_picture_pass(vt: VtexTexture, canvas: VtexPictureCanvas, place: vec2f) -> VtexPicturePass {
-    let fine = vtex_cell_fine(vt, place + canvas.home);
-    let word = vtex_cell_word(vt, fine);
-    let corner = fine * vt.fine.w - canvas.home;
-    let cell = floor(fine * vt.fine.w) - canvas.home;
+    let found = vtex_cell(vt, place + canvas.home);
+    let side = vtex_cell_side(found);
+    let word = found.word;
+    let corner = found.at * side - canvas.home;
+    let cell = vtex_cell_corner(vt, place + canvas.home) - canvas.home;
     // A list serves what is near, as far as its cell of the file goes.
     let listed = (word >> VTEX_CELL_TAG_SHIFT) >= VTEX_CELL_LIST;
     let clearance = f32(bitcast<i32>((word >> VTEX_CELL_CLEARANCE_SHIFT) & VTEX_CELL_CLEARANCE_MASK));
-    let around = select(clearance, VTEX_PICTURE_OVERLAP, listed) * vt.fine.w;
+    let around = select(clearance * VTEX_PICTURE_PART, VTEX_PICTURE_OVERLAP, listed) * side;
     let bounds_low = select(canvas.low, max(canvas.low, cell), vec2<bool>(listed));
     let bounds_high = select(canvas.high, min(canvas.high, cell + 1.0), vec2<bool>(listed));
     let low = max(corner - around, bounds_low);
-    let high = min(corner + around + vt.fine.w, bounds_high);
+    let high = min(corner + around + side, bounds_high);
     let whole = all(low <= canvas.centre - canvas.extent) && all(canvas.centre + canvas.extent < high);
     let before = place < canvas.low;
     let behind = place >= canvas.high;

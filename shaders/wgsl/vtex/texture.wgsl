@@ -11,13 +11,14 @@ struct VtexTexture {
     address: vec2u,
     // Cells a unit of uv along both axes, then the lattice origin in cells.
     cell_from_uv: vec4f,
-    // Columns and rows of fine cells, fine cells along a cell, and its inverse: a power of two.
-    fine: vec4f,
+    // The last place of the grid along both axes, base cells along a cell (a power of two), and
+    // columns of base cells.
+    base: vec4f,
     // Units of curves along a cell and around it.
     curve_units: vec2f,
     texels_per_cell: u32,
     mip_texels_per_cell: f32,
-    // First words of fine cells, commands, paints and tiles.
+    // First words of base cells, commands, paints and tiles.
     cells: u32,
     commands: u32,
     paints: u32,
@@ -40,7 +41,7 @@ fn vtex_texture(first: u32) -> VtexTexture {
         about.y,
         about.zw,
         bitcast<vec4f>(vtex_words[group + VTEX_HEADER_CELL_FROM_UV / 4u]),
-        bitcast<vec4f>(vtex_words[group + VTEX_HEADER_FINE / 4u]),
+        bitcast<vec4f>(vtex_words[group + VTEX_HEADER_BASE / 4u]),
         bitcast<vec2f>(measures.xy),
         measures.z,
         bitcast<f32>(measures.w),

@@ -5,8 +5,6 @@ pub(super) const OTHERWISE: &[(&str, &str, &str)] = &[
     ("edge.rs", "is_branch", "vtex_groups_is_branch"),
     ("edge.rs", "within", "vtex_msdf_covered"),
     ("image.rs", "new", "vtex_image_region"),
-    ("picture.rs", "fine_cell", "vtex_cell_fine"),
-    ("picture.rs", "word_at", "vtex_cell_word"),
     ("rows.rs", "new", "vtex_rows_phase"),
     ("rows.rs", "new", "vtex_samples_of_rows"),
     ("sample.rs", "sample", "vtex_sample_at"),
@@ -20,6 +18,11 @@ pub(super) const OTHERWISE: &[(&str, &str, &str)] = &[
 
 /// File of `cpu/`, its functions, and why WGSL has none.
 pub(super) const ONLY_RUST: &[(&str, &[&str], &str)] = &[
+    (
+        "cell.rs",
+        &["ends", "ends_of", "per_cell"],
+        "for the colour of a part of the canvas, which only the baker asks for",
+    ),
     (
         "color.rs",
         &["apply_straight", "decode_channel", "encode_channel"],

@@ -1,0 +1,247 @@
+//! Base cells and blocks: the words that evaluators read for the trees of the file's cells.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::tree::Tree;
+use crate::layout::{cell, has_list};
+
+/// A side of base cells: `2^side` cells of the file lie along one.
+pub(super) type Side = i32;
+
+/// Base cells up to this much smaller than the file's are tried.
+const SMALLEST: Side = -2;
+/// Deepest block.
+const MAX_BLOCK_DEPTH: u32 = cell::DEPTH_MASK;
+
+/// The picture as trees.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Picture {
+    /// Columns and rows of the file's cells.
+    pub(super) size: [usize; 2],
+    /// Each cell's tree, row by row.
+    pub(super) cells: Vec<usize>,
+    /// No two are leaves with the same word.
+    pub(super) trees: Vec<Tree>,
+}
+
+/// Base cells, and blocks behind them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Grid {
+    /// `2^side` cells of the file lie along a base cell.
+    pub(super) side: Side,
+    /// Columns and rows of base cells.
+    pub(crate) size: [usize; 2],
+    pub(crate) words: Vec<u32>,
+}
+
+impl Grid {
+    /// Base cells along one of the file's, a power of two.
+    pub(crate) fn base_per_cell(&self) -> f32 {
+        2.0_f32.powi(-self.side)
+    }
+}
+
+/// What a base cell shows: trees of the file's cells, row by row, or a part of one.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+struct Content {
+    trees: Vec<usize>,
+    /// Column and row of the part.
+    part: [usize; 2],
+}
+
+impl Picture {
+    /// The grid with the fewest words; `None` if there is none that words can name.
+    pub(super) fn grid(&self) -> Option<Grid> {
+        if self.size.contains(&0) {
+            return Some(Grid::default());
+        }
+        let depths: Vec<u32> = self.trees.iter().map(Tree::depth).collect();
+        let mut best: Option<(usize, Side)> = None;
+        for side in SMALLEST..=0 {
+            if let Some(words) = self.count_parts(side)
+                && best.is_none_or(|(least, _)| words <= least)
+            {
+                best = Some((words, side));
+            }
+        }
+        // Joined cells are deeper blocks: once that takes more words, so does joining more.
+        let largest = self.size[0].max(self.size[1]).ilog2() + 1;
+        for side in 1..=largest.cast_signed() {
+            match self.count_joined(side, &depths) {
+                Some(words) if best.is_none_or(|(least, _)| words < least) => {
+                    best = Some((words, side));
+                }
+                _ => break,
+            }
+        }
+        self.build(best?.1, &depths)
+    }
+
+    /// The grid of base cells of this side.
+    #[cfg(test)]
+    pub(super) fn grid_of(&self, side: Side) -> Option<Grid> {
+        let depths: Vec<u32> = self.trees.iter().map(Tree::depth).collect();
+        self.build(side, &depths)
+    }
+
+    fn base_size(&self, side: Side) -> [usize; 2] {
+        self.size.map(|count| match side.try_into() {
+            Ok(side) => count.div_ceil(1_usize << u32::min(side, 31)),
+            Err(_) => count << side.unsigned_abs(),
+        })
+    }
+
+    fn content(&self, side: Side, [x, y]: [usize; 2]) -> Content {
+        let cell = |x: usize, y: usize| {
+            // What lies beyond the grid is never read.
+            let [x, y] = [x.min(self.size[0] - 1), y.min(self.size[1] - 1)];
+            self.cells[y * self.size[0] + x]
+        };
+        if side < 0 {
+            let shift = side.unsigned_abs();
+            return Content {
+                trees: vec![cell(x >> shift, y >> shift)],
+                part: [x, y].map(|at| at & ((1 << shift) - 1)),
+            };
+        }
+        let [columns, rows] = [x, y].map(|at| at << side..(at + 1) << side);
+        Content {
+            trees: rows
+                .flat_map(|y| columns.clone().map(move |x| cell(x, y)))
+                .collect(),
+            part: [0; 2],
+        }
+    }
+
+    /// The word of a base cell that no block divides, and else the block's depth.
+    fn word_or_depth(&self, side: Side, content: &Content, depths: &[u32]) -> Result<u32, u32> {
+        let trees = &content.trees;
+        if side <= 0 {
+            let part = self.trees[trees[0]].part(side.unsigned_abs(), content.part);
+            return part.word().ok_or_else(|| part.depth());
+        }
+        let same = trees.iter().all(|tree| *tree == trees[0]);
+        match self.trees[trees[0]].word() {
+            // A list is for one cell of the file.
+            Some(word) if same && !has_list(word) => Ok(word),
+            _ => {
+                let deepest = trees.iter().map(|&tree| depths[tree]).max().unwrap_or(0);
+                Err(side.unsigned_abs() + deepest)
+            }
+        }
+    }
+
+    /// Words that a side takes where base cells are parts of the file's.
+    fn count_parts(&self, side: Side) -> Option<usize> {
+        let shift = side.unsigned_abs();
+        let [columns, rows] = self.base_size(side);
+        let mut words = columns * rows;
+        for tree in &self.trees {
+            for at in places([1 << shift; 2]) {
+                let depth = tree.part(shift, at).depth();
+                if depth > MAX_BLOCK_DEPTH {
+                    return None;
+                }
+                words += if depth > 0 { 1 << (2 * depth) } else { 0 };
+            }
+        }
+        Some(words)
+    }
+
+    /// Words that a side takes where the file's cells are parts of base cells.
+    fn count_joined(&self, side: Side, depths: &[u32]) -> Option<usize> {
+        let size = self.base_size(side);
+        let mut words = size[0] * size[1];
+        let mut seen = BTreeSet::new();
+        for at in places(size) {
+            let content = self.content(side, at);
+            if let Err(depth) = self.word_or_depth(side, &content, depths) {
+                if depth > MAX_BLOCK_DEPTH {
+                    return None;
+                }
+                if seen.insert(content) {
+                    words += 1 << (2 * depth);
+                }
+            }
+        }
+        Some(words)
+    }
+
+    fn build(&self, side: Side, depths: &[u32]) -> Option<Grid> {
+        let size = self.base_size(side);
+        let mut blocks = Blocks::new(size[0] * size[1]);
+        let mut known = BTreeMap::new();
+        for (index, at) in places(size).enumerate() {
+            let content = self.content(side, at);
+            blocks.words[index] = match self.word_or_depth(side, &content, depths) {
+                Ok(word) => word,
+                Err(depth) => match known.get(&content) {
+                    Some(&word) => word,
+                    None => {
+                        let word = blocks.add(depth, &self.block(side, &content, depth))?;
+                        known.insert(content, word);
+                        word
+                    }
+                },
+            };
+        }
+        Some(Grid {
+            side,
+            size,
+            words: blocks.words,
+        })
+    }
+
+    fn block(&self, side: Side, content: &Content, depth: u32) -> Vec<u32> {
+        let pitch = 1 << depth;
+        let mut words = vec![0; pitch * pitch];
+        let shift = side.unsigned_abs();
+        if side <= 0 {
+            let part = self.trees[content.trees[0]].part(shift, content.part);
+            part.fill(&mut words, pitch, [0; 2], depth);
+            return words;
+        }
+        for (index, &tree) in content.trees.iter().enumerate() {
+            let at = [index & ((1 << shift) - 1), index >> shift];
+            let deep = depth - shift;
+            self.trees[tree].fill(&mut words, pitch, at.map(|at| at << deep), deep);
+        }
+        words
+    }
+}
+
+/// Column and row, row by row.
+pub(super) fn places([columns, rows]: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
+    (0..rows).flat_map(move |y| (0..columns).map(move |x| [x, y]))
+}
+
+/// Base cells, and blocks behind them, no two alike.
+struct Blocks {
+    words: Vec<u32>,
+    known: BTreeMap<Vec<u32>, u32>,
+}
+
+impl Blocks {
+    fn new(base: usize) -> Self {
+        let group = cell::BLOCK_WORDS as usize;
+        Self {
+            words: vec![0; base.next_multiple_of(group)],
+            known: BTreeMap::new(),
+        }
+    }
+
+    /// The word of a base cell with this block.
+    fn add(&mut self, depth: u32, block: &[u32]) -> Option<u32> {
+        if let Some(&word) = self.known.get(block) {
+            return Some(word);
+        }
+        let place = u32::try_from(self.words.len()).ok()? / cell::BLOCK_WORDS;
+        if place > cell::PLACE_MASK {
+            return None;
+        }
+        let word = cell::BLOCK << cell::BLOCK_SHIFT | depth << cell::DEPTH_SHIFT | place;
+        self.words.extend(block);
+        self.known.insert(block.to_vec(), word);
+        Some(word)
+    }
+}
