@@ -19,10 +19,10 @@ const BLOCK_COST: f64 = 0.05;
 /// Cost of a MiB. What it is worth in time is a judgement: each must save a mean lookup two commands
 /// in nine (docs/decisions/0019 has other values).
 const MIB_COST: f64 = 0.06;
-/// Of the commands that parts with outlines walk, this share at least is left in a mean quarter: an
-/// edge leaves half, because it goes through two quarters of four. Lists that are not worth a depth
-/// even so are not cut for it. Over 69 drawings that saves half of all cuts, and the depths cost a
-/// thousandth more by this model.
+/// One depth more is taken to leave at least this share of what parts with outlines walk: a straight
+/// edge leaves half, because it goes through two quarters of four. No list is cut for a depth that
+/// is not worth it even so. Over 69 drawings that saves half of all cuts, and by this model the
+/// depths cost less than a thousandth more.
 const LEAST_LEFT: f64 = 0.4;
 /// No texture takes more bytes of words and commands than this, unless the file's own cells do.
 pub(super) const MAX_BYTES: usize = 48 << 20;
