@@ -30,6 +30,7 @@ sources! {
     "trace/surface",
     "vtex/blend",
     "vtex/cell",
+    "vtex/cell_level",
     "vtex/composite_first",
     "vtex/composite_first_rows",
     "vtex/composite_over",

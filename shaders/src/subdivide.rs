@@ -75,6 +75,7 @@ fn divide(file: &VtexFile, filter: FilterMode, model: &Model) -> Option<Subdivis
     let mut lists = Lists::default();
     let mut picture = Picture {
         size: file.meta.grid.size_cells.map(|count| count as usize),
+        has_levels: filter == FilterMode::Footprint,
         ..Picture::default()
     };
     let mut known: BTreeMap<u32, usize> = BTreeMap::new();

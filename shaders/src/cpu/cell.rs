@@ -1,4 +1,4 @@
-//! Twin of `vtex/cell.wgsl`: base cells, and blocks of finer ones.
+//! Twin of `vtex/cell.wgsl` and `vtex/cell_level.wgsl`: base cells, and blocks of finer ones.
 
 use super::Sampler;
 use super::cost::Observer;
@@ -42,31 +42,81 @@ impl Cell {
 
 /// The cell that `p`, in the file's cells, lies in.
 pub(super) fn cell(sampler: &Sampler<'_>, p: Vec2, observer: &mut impl Observer) -> Cell {
+    let word = base(sampler, p, observer);
+    of_block(sampler, p, word, [depth(word), 0], observer)
+}
+
+/// The cell that `p` lies in, on the finest level on which no more than `2^most` lie along one of the
+/// file's, or on the coarsest that its block has.
+pub(super) fn level(
+    sampler: &Sampler<'_>,
+    p: Vec2,
+    most: i32,
+    observer: &mut impl Observer,
+) -> Cell {
+    let word = base(sampler, p, observer);
+    let depth = depth(word);
+    // Halvings of a cell of the file: levels have even numbers of them.
+    let exponent = sampler.settings.base_per_cell.to_bits() >> cell::EXPONENT_SHIFT;
+    let halved = exponent.cast_signed() - 127;
+    let finest = halved + depth.cast_signed();
+    let coarsest = (halved.max(0) + 1) & !1;
+    let above = (finest - 1) & !1;
+    if most >= finest || above < coarsest {
+        return of_block(sampler, p, word, [depth, 0], observer);
+    }
+    let chosen = (most & !1).max(coarsest).min(above);
+    let chosen_depth = (chosen - halved).cast_unsigned();
+    // The block's cells, then its levels from fine to coarse: 16 + 256 + ... times the words of this one.
+    let between = 0x1111_1111 & ((1_u32 << (2 * (above - chosen))) - 1);
+    let skipped = (1 << (2 * depth)) + (between << (2 * chosen_depth + 4));
+    of_block(sampler, p, word, [chosen_depth, skipped], observer)
+}
+
+/// The word of the base cell that `p` lies in.
+fn base(sampler: &Sampler<'_>, p: Vec2, observer: &mut impl Observer) -> u32 {
     let s = &sampler.settings;
     let place = [0, 1].map(|i| clamp(p[i], 0.0, s.last_place[i]));
     let base = place.map(|at| to_u32(at * s.base_per_cell));
     let index = base[1]
         .wrapping_mul(to_u32(s.base_columns))
         .wrapping_add(base[0]);
-    let word = sampler.word(s.cells.wrapping_add(index));
     observer.cell();
-    let divided = word >> cell::BLOCK_SHIFT == cell::BLOCK;
-    let depth = if divided {
+    sampler.word(s.cells.wrapping_add(index))
+}
+
+/// Of a base cell's word: how deep its block is, or 0.
+const fn depth(word: u32) -> u32 {
+    if word >> cell::BLOCK_SHIFT == cell::BLOCK {
         word >> cell::DEPTH_SHIFT & cell::DEPTH_MASK
     } else {
         0
-    };
+    }
+}
+
+/// The cell that `p` lies in, where its base cell has `word`: of the level of this depth, which begins
+/// so many words behind the block's first.
+fn of_block(
+    sampler: &Sampler<'_>,
+    p: Vec2,
+    word: u32,
+    [depth, skipped]: [u32; 2],
+    observer: &mut impl Observer,
+) -> Cell {
+    let s = &sampler.settings;
+    let place = [0, 1].map(|i| clamp(p[i], 0.0, s.last_place[i]));
     let per_cell = s
         .base_per_cell
         .to_bits()
         .wrapping_add(depth << cell::EXPONENT_SHIFT);
     let at = place.map(|at| (at * f32::from_bits(per_cell)).floor());
     let mut found = Cell { word, per_cell, at };
-    if divided {
+    if word >> cell::BLOCK_SHIFT == cell::BLOCK {
         let inside = at.map(|at| to_u32(at) & ((1 << depth) - 1));
         let first = (word & cell::PLACE_MASK).wrapping_mul(cell::BLOCK_WORDS);
         let index = (inside[1] << depth).wrapping_add(inside[0]);
-        found.word = sampler.word(s.cells.wrapping_add(first).wrapping_add(index));
+        let first = s.cells.wrapping_add(first).wrapping_add(skipped);
+        found.word = sampler.word(first.wrapping_add(index));
         observer.cell();
     }
     found

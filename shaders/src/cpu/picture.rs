@@ -3,7 +3,7 @@
 
 use vtex_format::Features;
 
-use super::cell::{cell, corner};
+use super::cell::{cell, corner, level};
 use super::cost::Observer;
 use super::math::to_f32;
 use super::plane::Vec2;
@@ -18,6 +18,8 @@ use crate::layout::{cell, cmd, filter};
 const FAR: f32 = 1e30;
 /// By how much of its side the list of a cell goes beyond it.
 const OVERLAP: f32 = cell::OVERLAP as f32 / 16.0;
+/// How wide cells are at least, in what the samples of a footprint may be away from its centre.
+const WIDTHS: f32 = 2.0;
 /// What of its side a cell's clearance is counted in.
 const PART: f32 = 1.0 / cell::CLEARANCE_PARTS as f32;
 
@@ -113,6 +115,8 @@ struct Canvas {
     home: Vec2,
     centre: Vec2,
     extent: Vec2,
+    /// Cells are no smaller than the footprint: no more than 2 to this along one of the file's.
+    most: i32,
     /// Not made before they are needed.
     rows: Rows,
     /// The canvas.
@@ -141,10 +145,14 @@ impl Canvas {
         // As far as places are kept inside the canvas.
         let inset = [0, 1].map(|i| mapping::inset(sampler, i) * s.scale[i]);
         let low = [0, 1].map(|i| s.offset[i] + inset[i] - home[i]);
+        let extent = extent(lookup.axes);
+        let width = WIDTHS * extent[0].max(extent[1]);
         Self {
             home,
             centre,
-            extent: extent(lookup.axes),
+            extent,
+            // The power of two above the width.
+            most: 126 - (width.to_bits() >> cell::EXPONENT_SHIFT).cast_signed(),
             rows: Rows::default(),
             low,
             high: [0, 1].map(|i| s.scale[i] - 2.0 * inset[i] + low[i]),
@@ -154,7 +162,7 @@ impl Canvas {
     /// The pass for what lies at `place`.
     fn pass(&self, sampler: &Sampler<'_>, place: Vec2, observer: &mut impl Observer) -> Pass {
         let p = [0, 1].map(|i| place[i] + self.home[i]);
-        let found = cell(sampler, p, observer);
+        let found = level(sampler, p, self.most, observer);
         let side = found.side();
         let word = found.word;
         let corner = corner(sampler, p);

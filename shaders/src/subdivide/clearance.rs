@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::grid::{Grid, places};
+use super::grid::{Grid, levels, places};
 use crate::layout::{cell, has_list};
 
 /// Of a cell whose neighbours are not known to differ.
@@ -27,6 +27,11 @@ pub(super) fn write(grid: &mut Grid) {
         }
     }
     between(grid, &mut clearances);
+    if grid.has_levels {
+        for block in places(grid.size).filter_map(|at| grid.block_at(at)) {
+            on_levels(grid, &block, &mut clearances);
+        }
+    }
     let base = grid.size[0] * grid.size[1];
     for (index, (word, clearance)) in grid.words.iter_mut().zip(clearances).enumerate() {
         let divided = index < base && Block::of(*word).is_some();
@@ -103,6 +108,23 @@ fn inside(grid: &Grid, base: [usize; 2], block: &Block, clearances: &mut [u16]) 
         for ((stored, distance), &columns) in clearances.iter_mut().zip(distances).zip(&known) {
             *stored = (*stored).min(PARTS * (*distance).min(columns).min(rows));
         }
+    }
+}
+
+/// The clearances of a block's coarser levels: what is clear around all cells in a square is around it.
+fn on_levels(grid: &Grid, block: &Block, clearances: &mut [u16]) {
+    let mut first = block.first + block.pitch() * block.pitch();
+    for depth in levels(grid.side, block.depth) {
+        let finer = block.depth - depth;
+        for (index, [x, y]) in places([1 << depth; 2]).enumerate() {
+            let rows = (y << finer..(y + 1) << finer).map(|y| {
+                let row = block.first + y * block.pitch();
+                &clearances[row + (x << finer)..row + ((x + 1) << finer)]
+            });
+            let least = rows.flatten().copied().min().unwrap_or(0);
+            clearances[first + index] = least >> finer;
+        }
+        first += 1 << (2 * depth);
     }
 }
 
@@ -313,7 +335,10 @@ mod tests {
     }
 
     fn split(quarters: [Tree; 4]) -> Tree {
-        Tree::Split(Box::new(quarters))
+        Tree::Split {
+            whole: None,
+            quarters: Box::new(quarters),
+        }
     }
 
     fn picture() -> Picture {
@@ -343,6 +368,7 @@ mod tests {
             size,
             cells: cells.collect(),
             trees,
+            has_levels: false,
         }
     }
 
@@ -415,6 +441,7 @@ mod tests {
             size: [4, 1],
             cells: vec![0, 0, 0, 1],
             trees,
+            has_levels: false,
         };
         let mut grid = picture.grid_of(0).unwrap();
         write(&mut grid);
@@ -429,6 +456,7 @@ mod tests {
             size: [300, 300],
             cells: vec![0; 300 * 300],
             trees: vec![solid(3)],
+            has_levels: false,
         };
         let mut grid = picture.grid_of(0).unwrap();
         write(&mut grid);

@@ -10,6 +10,8 @@ pub(super) type Side = i32;
 
 /// Base cells up to this much smaller than the file's are tried.
 const SMALLEST: Side = -2;
+/// Blocks take whole groups of so many words.
+const BLOCK_WORDS: usize = cell::BLOCK_WORDS as usize;
 /// Deepest block.
 const MAX_BLOCK_DEPTH: u32 = cell::DEPTH_MASK;
 
@@ -22,6 +24,8 @@ pub(super) struct Picture {
     pub(super) cells: Vec<usize>,
     /// No two are leaves with the same word.
     pub(super) trees: Vec<Tree>,
+    /// Whether blocks have levels coarser than their cells.
+    pub(super) has_levels: bool,
 }
 
 /// Base cells, and blocks behind them.
@@ -32,6 +36,23 @@ pub(crate) struct Grid {
     /// Columns and rows of base cells.
     pub(crate) size: [usize; 2],
     pub(crate) words: Vec<u32>,
+    /// Whether blocks have levels coarser than their cells.
+    pub(super) has_levels: bool,
+}
+
+/// Whether squares so often halved from a cell of the file are a level of blocks: one level in two, so
+/// that each has a sixteenth of the words of the next.
+pub(super) const fn is_level(halvings: u32) -> bool {
+    halvings.is_multiple_of(2)
+}
+
+/// The depths of the levels of a block, from fine to coarse, without that of its cells. Levels are no
+/// coarser than the block and than a cell of the file, as lists are for one.
+pub(super) fn levels(side: Side, depth: u32) -> impl Iterator<Item = u32> {
+    let coarsest = side.max(0).unsigned_abs();
+    (coarsest..depth)
+        .rev()
+        .filter(move |depth| is_level(depth.wrapping_sub(side.cast_unsigned())))
 }
 
 impl Grid {
@@ -178,7 +199,12 @@ impl Picture {
                 Err(depth) => match known.get(&content) {
                     Some(&word) => word,
                     None => {
-                        let word = blocks.add(depth, &self.block(side, &content, depth))?;
+                        let mut words = self.block(side, &content, depth);
+                        for level in levels(side, depth).filter(|_| self.has_levels) {
+                            words.extend(self.block(side, &content, level));
+                        }
+                        words.resize(words.len().next_multiple_of(BLOCK_WORDS), 0);
+                        let word = blocks.add(depth, &words)?;
                         known.insert(content, word);
                         word
                     }
@@ -189,9 +215,11 @@ impl Picture {
             side,
             size,
             words: blocks.words,
+            has_levels: self.has_levels,
         })
     }
 
+    /// A level of a block: its `2^depth` rows of as many words.
     fn block(&self, side: Side, content: &Content, depth: u32) -> Vec<u32> {
         let pitch = 1 << depth;
         let mut words = vec![0; pitch * pitch];
@@ -223,9 +251,8 @@ struct Blocks {
 
 impl Blocks {
     fn new(base: usize) -> Self {
-        let group = cell::BLOCK_WORDS as usize;
         Self {
-            words: vec![0; base.next_multiple_of(group)],
+            words: vec![0; base.next_multiple_of(BLOCK_WORDS)],
             known: BTreeMap::new(),
         }
     }

@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 
 use super::depth::{self, Model, Sums};
 use super::dilated;
+use super::grid::is_level;
 use super::list::{Arena, List};
 use super::lists::{Lists, Shown};
 use super::outline::Region;
-use crate::layout::{FilterMode, has_list};
+use crate::layout::{FilterMode, cell, has_list};
 
 /// A square of the picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -15,7 +16,11 @@ pub(super) enum Tree {
     /// It has one word.
     Leaf(u32),
     /// Its quarters, row by row.
-    Split(Box<[Self; 4]>),
+    Split {
+        /// The word of all of it, where evaluators may want that: on levels of blocks.
+        whole: Option<u32>,
+        quarters: Box<[Self; 4]>,
+    },
 }
 
 impl Tree {
@@ -23,14 +28,14 @@ impl Tree {
     pub(super) fn depth(&self) -> u32 {
         match self {
             Self::Leaf(_) => 0,
-            Self::Split(quarters) => 1 + quarters.iter().map(Self::depth).max().unwrap_or(0),
+            Self::Split { quarters, .. } => 1 + quarters.iter().map(Self::depth).max().unwrap_or(0),
         }
     }
 
     /// The part of it in column and row `at` of `2^depth`.
     pub(super) fn part(&self, depth: u32, at: [usize; 2]) -> &Self {
         match self {
-            Self::Split(quarters) if depth > 0 => {
+            Self::Split { quarters, .. } if depth > 0 => {
                 let bit = |axis: usize| at[axis] >> (depth - 1) & 1;
                 quarters[2 * bit(1) + bit(0)].part(depth - 1, at)
             }
@@ -42,21 +47,22 @@ impl Tree {
     pub(super) fn word(&self) -> Option<u32> {
         match self {
             Self::Leaf(word) => Some(*word),
-            Self::Split(_) => None,
+            Self::Split { .. } => None,
         }
     }
 
-    /// Writes it into the square of `2^depth` words at `at`, in rows of `pitch`.
+    /// Writes it into the square of `2^depth` words at `at`, in rows of `pitch`. What is finer than that
+    /// shows as a whole.
     pub(super) fn fill(&self, words: &mut [u32], pitch: usize, [x, y]: [usize; 2], depth: u32) {
         match self {
-            Self::Split(quarters) if depth > 0 => {
+            Self::Split { quarters, .. } if depth > 0 => {
                 let half = 1 << (depth - 1);
                 let corners = [[x, y], [x + half, y], [x, y + half], [x + half, y + half]];
                 for (quarter, corner) in quarters.iter().zip(corners) {
                     quarter.fill(words, pitch, corner, depth - 1);
                 }
             }
-            Self::Split(_) => {}
+            Self::Split { whole, .. } => words[y * pitch + x] = whole.unwrap_or(cell::EMPTY),
             Self::Leaf(word) => {
                 for row in y..y + (1 << depth) {
                     words[row * pitch + x..][..1 << depth].fill(*word);
@@ -116,7 +122,7 @@ impl<'a> Divider<'a> {
         let list = self.arena.decode(words, curves);
         self.push(list, self.whole);
         self.divide(uses);
-        self.finish(0, lists)
+        self.finish(0, 0, lists)
     }
 
     fn push(&mut self, list: List, region: Region) {
@@ -181,20 +187,24 @@ impl<'a> Divider<'a> {
         }
     }
 
-    /// The tree of a part. Quarters that show the same become one, but in footprint mode no list
+    /// The tree of a part that is halved `depth` times. Quarters that show the same become one, but in footprint mode no list
     /// does: it serves what lies around it as far as the side of its own cell says.
-    fn finish(&self, at: usize, lists: &mut Lists) -> Tree {
+    fn finish(&self, at: usize, depth: u32, lists: &mut Lists) -> Tree {
         let part = &self.parts[at];
         let Some(first) = part.quarters else {
             return Tree::Leaf(lists.word(part.shown, &self.commands));
         };
-        let quarters = [0, 1, 2, 3].map(|quarter| self.finish(first + quarter, lists));
+        let quarters = [0, 1, 2, 3].map(|quarter| self.finish(first + quarter, depth + 1, lists));
         let merges = |word: u32| self.filter != FilterMode::Footprint || !has_list(word);
         match quarters[0].word() {
             Some(word) if merges(word) && quarters.iter().all(|other| *other == quarters[0]) => {
                 Tree::Leaf(word)
             }
-            _ => Tree::Split(Box::new(quarters)),
+            _ => Tree::Split {
+                whole: (self.filter == FilterMode::Footprint && is_level(depth))
+                    .then(|| lists.word(part.shown, &self.commands)),
+                quarters: Box::new(quarters),
+            },
         }
     }
 }

@@ -4,6 +4,7 @@
 //!use vtex/mapping_inset
 //!use vtex/lookup
 //!use vtex/cell
+//!use vtex/cell_level
 //!use vtex/samples
 //!use vtex/resolved
 //!use vtex/paint
@@ -16,6 +17,8 @@
 const VTEX_PICTURE_FAR: f32 = 1e30;
 // By how much of its side the list of a cell goes beyond it.
 const VTEX_PICTURE_OVERLAP: f32 = f32(VTEX_CELL_OVERLAP) / 16.0;
+// How wide cells are at least, in what the samples of a footprint may be away from its centre.
+const VTEX_PICTURE_WIDTHS: f32 = 2.0;
 // What of its side a cell's clearance is counted in.
 const VTEX_PICTURE_PART: f32 = 1.0 / f32(VTEX_CELL_CLEARANCE_PARTS);
 
@@ -26,6 +29,8 @@ struct VtexPictureCanvas {
     centre: vec2f,
     // No sample lies farther from the centre.
     extent: vec2f,
+    // Cells are no smaller than the footprint: no more than 2 to this along one of the file's.
+    most: i32,
     // As far as samples count.
     low: vec2f,
     high: vec2f,
@@ -46,7 +51,7 @@ struct VtexPicturePass {
 
 // The pass for what lies at `place`.
 fn vtex_picture_pass(vt: VtexTexture, canvas: VtexPictureCanvas, place: vec2f) -> VtexPicturePass {
-    let found = vtex_cell(vt, place + canvas.home);
+    let found = vtex_cell_level(vt, place + canvas.home, canvas.most);
     let side = vtex_cell_side(found);
     let word = found.word;
     let corner = found.at * side - canvas.home;
@@ -86,7 +91,11 @@ fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
     let inset = vtex_mapping_inset(vt) * vt.cell_from_uv.xy;
     let low = vt.cell_from_uv.zw + inset - home;
     let high = vt.cell_from_uv.xy - 2.0 * inset + low;
-    var canvas = VtexPictureCanvas(home, centre, vtex_rows_extent(axes), low, high);
+    let extent = vtex_rows_extent(axes);
+    // The power of two above the width.
+    let width = bitcast<u32>(VTEX_PICTURE_WIDTHS * max(extent.x, extent.y));
+    let most = 126 - bitcast<i32>(width >> VTEX_CELL_EXPONENT_SHIFT);
+    var canvas = VtexPictureCanvas(home, centre, extent, most, low, high);
     var here = vtex_picture_pass(vt, canvas, centre);
     // Most footprints lie in one paint.
     let tag = here.word >> VTEX_CELL_TAG_SHIFT;
