@@ -13,7 +13,7 @@ fn key(features: u32) -> SpecKey {
 }
 
 /// Numbers that are no integers; tests of parity hold them against Rust's.
-const FLOATS: [&str; 9] = [
+const FLOATS: [&str; 10] = [
     "VTEX_ROWS_LEAST",
     "VTEX_ROWS_SLACK",
     "VTEX_LOOKUP_MOST",
@@ -22,6 +22,7 @@ const FLOATS: [&str; 9] = [
     "VTEX_ROWS_COLUMN",
     "VTEX_PICTURE_FAR",
     "VTEX_PICTURE_OVERLAP",
+    "VTEX_PICTURE_WIDTHS",
     "VTEX_PICTURE_PART",
 ];
 
