@@ -111,6 +111,8 @@ mod feature = "FEATURE" {
     FOOTPRINT = vtex_format::Features::FOOTPRINT;
     /// [`vtex_format::Features::CLIPS`].
     CLIPS = vtex_format::Features::CLIPS;
+    /// [`vtex_format::Features::GROUPS`].
+    GROUPS = vtex_format::Features::GROUPS;
     /// [`vtex_format::Features::PAPER`].
     PAPER = vtex_format::Features::PAPER;
     /// [`vtex_format::Features::MAPPING`].
@@ -118,9 +120,9 @@ mod feature = "FEATURE" {
 }
 
 /// Parts of a fine cell's word: tags as of [`vtex_format::CellWord`], a list's payload counts
-/// commands. A cell with neither list nor groups has a clearance beside its paint: that many fine
-/// cells around it, in every direction, show the same. Only footprint lookups read it; for others
-/// it is 0.
+/// commands. A cell with neither list nor groups has a clearance beside its paint: so far around it, in
+/// every direction, in parts of its side, the same shows. Only footprint lookups read it; for others it
+/// is 0.
 mod cell = "CELL" {
     /// Position of the tag.
     TAG_SHIFT = vtex_format::CELL_TAG_SHIFT;

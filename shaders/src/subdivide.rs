@@ -21,7 +21,7 @@ mod tree;
 
 use std::collections::BTreeMap;
 
-use vtex_format::{CellWord, VtexFile};
+use vtex_format::{CellWord, Features, VtexFile};
 
 use crate::layout::{FilterMode, cell};
 use depth::Model;
@@ -71,11 +71,14 @@ fn divide(file: &VtexFile, filter: FilterMode, model: &Model) -> Option<Subdivis
     for &word in &file.cells {
         *uses.entry(word).or_default() += 1;
     }
-    let mut divider = Divider::new(whole_cell(file), filter, model);
+    // A walk through groups is for few samples, and there are as many walks on any level.
+    let has_groups = file.spec.features & Features::GROUPS != 0;
+    let has_levels = filter == FilterMode::Footprint && !has_groups;
+    let mut divider = Divider::new(whole_cell(file), filter, has_levels, model);
     let mut lists = Lists::default();
     let mut picture = Picture {
         size: file.meta.grid.size_cells.map(|count| count as usize),
-        has_levels: filter == FilterMode::Footprint,
+        has_levels,
         ..Picture::default()
     };
     let mut known: BTreeMap<u32, usize> = BTreeMap::new();

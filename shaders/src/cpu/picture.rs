@@ -146,12 +146,16 @@ impl Canvas {
         let inset = [0, 1].map(|i| mapping::inset(sampler, i) * s.scale[i]);
         let low = [0, 1].map(|i| s.offset[i] + inset[i] - home[i]);
         let extent = extent(lookup.axes);
-        let width = WIDTHS * extent[0].max(extent[1]);
+        let width = if s.has(Features::GROUPS) {
+            0.0
+        } else {
+            WIDTHS * extent[0].max(extent[1])
+        };
         Self {
             home,
             centre,
             extent,
-            // The power of two above the width.
+            // The power of two above the width. Textures with groups have no levels.
             most: 126 - (width.to_bits() >> cell::EXPONENT_SHIFT).cast_signed(),
             rows: Rows::default(),
             low,

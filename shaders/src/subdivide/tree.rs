@@ -88,6 +88,8 @@ pub(super) struct Divider<'a> {
     /// What all of them look like.
     whole: Region,
     filter: FilterMode,
+    /// Whether blocks have levels coarser than their cells.
+    has_levels: bool,
     model: &'a Model,
     /// What the present cell's parts show.
     arena: Arena,
@@ -97,10 +99,16 @@ pub(super) struct Divider<'a> {
 
 impl<'a> Divider<'a> {
     /// `whole` is a cell of the file.
-    pub(super) fn new(whole: Region, filter: FilterMode, model: &'a Model) -> Self {
+    pub(super) fn new(
+        whole: Region,
+        filter: FilterMode,
+        has_levels: bool,
+        model: &'a Model,
+    ) -> Self {
         Self {
             whole,
             filter,
+            has_levels,
             model,
             arena: Arena::default(),
             commands: Vec::new(),
@@ -201,7 +209,7 @@ impl<'a> Divider<'a> {
                 Tree::Leaf(word)
             }
             _ => Tree::Split {
-                whole: (self.filter == FilterMode::Footprint && is_level(depth))
+                whole: (self.has_levels && is_level(depth))
                     .then(|| lists.word(part.shown, &self.commands)),
                 quarters: Box::new(quarters),
             },

@@ -174,7 +174,8 @@ pub(crate) struct BakeOptions {
     /// as curves
     #[arg(long, value_name = "PX", default_value_t = BakeConfig::default().error_px)]
     pub(crate) error: f64,
-    /// Texels along the longer side of mip 0
+    /// Texels along the longer side of mip 0, the largest of the mips that stand for the picture where
+    /// pixels are wider than its texels. Larger is faster and, in footprint mode, not sharper
     #[arg(long, value_name = "N", default_value_t = BakeConfig::default().mip0_size)]
     pub(crate) size: u32,
     /// MSDF texels along the canvas' longer side; with --mode auto the largest number that is tried
@@ -275,7 +276,8 @@ pub(crate) struct Lookup {
 /// How a lookup filters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Filter {
-    /// The picture at the sample itself: only the samples of a pixel smooth its hard edges
+    /// The picture at the sample itself: only the samples of a pixel smooth its hard edges. Like the
+    /// others it reads mips where a sample stands for more than about a texel of mip 0
     #[default]
     Point,
     /// The mean of the picture over a sample's footprint, from 32 places in it
@@ -419,7 +421,8 @@ pub(crate) struct Render {
     /// Samples per pixel
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub(crate) spp: u32,
-    /// How a lookup filters
+    /// How a lookup filters. Samples lie anywhere in their pixel, so that one a pixel is noisy in any
+    /// mode
     #[arg(long, value_enum, default_value_t)]
     pub(crate) filter: Filter,
     /// Largest number of bounces of a light path
