@@ -23,6 +23,10 @@ pub(super) trait Samples {
     fn centre(&self) -> Vec2;
 }
 
+/// How far a box may reach beyond its sides, in uv: as much as rounding may take. Images that abut have
+/// sides that are rounded each by itself.
+const SLACK: f32 = 1.2e-7;
+
 /// One sample at the lookup itself.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
@@ -50,9 +54,10 @@ impl Samples for Point {
         })
     }
 
-    fn within(&self, _: &Sampler<'_>, [left, top, right, bottom]: [f32; 4]) -> u32 {
-        let [u, v] = self.uv;
-        u32::from(u >= left && v >= top && u <= right && v <= bottom)
+    fn within(&self, _: &Sampler<'_>, sides: [f32; 4]) -> u32 {
+        let inside =
+            |i: usize| self.uv[i] >= sides[i] - SLACK && self.uv[i] <= sides[i + 2] + SLACK;
+        u32::from(inside(0) && inside(1))
     }
 
     fn uv(&self, _: u32) -> Vec2 {

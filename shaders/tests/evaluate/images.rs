@@ -368,3 +368,30 @@ fn a_footprint_sees_the_share_of_a_patch_that_it_covers() {
         assert!(shares.len() > 8, "{shares:?}");
     }
 }
+
+/// The sides of tiles are rounded each by itself, so that between two there may be a gap of one f32.
+#[test]
+fn patches_that_abut_leave_no_gap() {
+    let mut file = row_of(1);
+    let side = 28.0_f32 / 31.0;
+    let rects = [
+        [0.0, 0.0, side.next_down(), 1.0],
+        [side.next_up(), 0.0, 1.0, 1.0],
+    ];
+    let red = |_, _, _| [255, 0, 0, 255];
+    file.images = rects.map(|rect| image(rect, [4, 4], red)).to_vec();
+    let entries = [0, 1].map(|index| Entry {
+        kind: EntryKind::Image,
+        last: false,
+        opaque: true,
+        index,
+        data: 0,
+    });
+    push_entries(&mut file, 0, &entries);
+    file.spec = SpecKey::for_file(&file);
+    for filter in FILTERS {
+        for u in [side.next_down(), side, side.next_up()] {
+            check(sample(&file, filter, u, 0.0), [1.0, 0.0, 0.0, 1.0], 1e-6);
+        }
+    }
+}

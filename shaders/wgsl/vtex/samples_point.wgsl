@@ -18,6 +18,9 @@ struct VtexSamples {
 alias VtexWinding = i32;
 
 const VTEX_SAMPLES_EVERY: u32 = 1u;
+// How far a box may reach beyond its sides, in uv: as much as rounding may take. Images that abut have
+// sides that are rounded each by itself.
+const VTEX_SAMPLES_SLACK: f32 = 1.2e-7;
 
 fn vtex_samples_in_cell(vt: VtexTexture, lookup: VtexLookup, q: vec2f) -> VtexSamples {
     return VtexSamples(lookup.uv, q, q * vt.curve_units.x + vt.curve_units.y);
@@ -38,7 +41,9 @@ fn vtex_samples_filled(winding: VtexWinding, tag: u32) -> u32 {
 
 // The samples in a box, in uv: its corner of least coordinates, then the other.
 fn vtex_samples_within(vt: VtexTexture, samples: VtexSamples, box: vec4f) -> u32 {
-    let inside = all(samples.uv >= box.xy) && all(samples.uv <= box.zw);
+    let low = box.xy - VTEX_SAMPLES_SLACK;
+    let high = box.zw + VTEX_SAMPLES_SLACK;
+    let inside = all(samples.uv >= low) && all(samples.uv <= high);
     return select(0u, VTEX_SAMPLES_EVERY, inside);
 }
 

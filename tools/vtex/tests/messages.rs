@@ -59,6 +59,11 @@ fn full_folder() -> TempDir {
     let inside = folder.path();
     put(inside, "not-baked.vtex", SQUARE);
     put(inside, "slow.svg", &slow());
+    fs::create_dir(inside.join("parts")).expect("a folder");
+    let texture = fs::read(inside.join("square.vtex")).expect("it was baked");
+    fs::write(inside.join("parts/shader.wgsl"), &texture).expect("a file can be written");
+    put(inside, "parts/svg.png", SQUARE);
+    put(inside, "parts/index.html", SQUARE);
     for name in ["folder.png", "in"] {
         fs::create_dir(inside.join(name)).expect("a folder");
     }

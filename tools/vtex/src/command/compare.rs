@@ -1,7 +1,8 @@
 //! `vtex compare`.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 use vtex_format::VtexFile;
@@ -77,7 +78,7 @@ pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {
         console.note(&format!("{}", folder.join("index.html").display()));
     }
     if let Some(folder) = &args.pictures {
-        write_pictures(folder, &comparison, &shooter, &reports)?;
+        write_pictures(&args, folder, &comparison, &shooter, &reports)?;
     }
     Ok(verdict(&args, &reports, console))
 }
@@ -96,6 +97,7 @@ fn noise_db(comparison: &Comparison<'_>, reports: &[ZoomReport]) -> Outcome<Vec<
 
 /// Writes three PNGs of the worst window of all zooms.
 fn write_pictures(
+    args: &Compare,
     folder: &Path,
     comparison: &Comparison<'_>,
     shooter: &Shooter,
@@ -111,9 +113,15 @@ fn write_pictures(
     let apart = difference_picture(&truth, &picture, 4.0);
     output::create_folder(folder)?;
     for (name, picture) in [("svg", &truth), ("vtex", &picture), ("difference", &apart)] {
-        output::write(&folder.join(format!("{name}.png")), &picture.to_png()?)?;
+        let path = folder.join(format!("{name}.png"));
+        output::write_apart(&path, &picture.to_png()?, &taken(args))?;
     }
     Ok(())
+}
+
+/// What no output may overwrite.
+fn taken(args: &Compare) -> BTreeSet<PathBuf> {
+    output::taken([args.svg.as_path(), args.file.as_path()])
 }
 
 fn terms(args: &Compare, file: &VtexFile) -> Terms {
@@ -228,5 +236,5 @@ fn write_page(
         ];
         page.row(report.zoom, &truth, &columns)?;
     }
-    output::write_page(folder, page)
+    output::write_page(folder, page, &taken(args))
 }

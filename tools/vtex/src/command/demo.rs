@@ -69,7 +69,8 @@ pub(super) fn run(args: Demo, console: Console) -> Outcome<ExitCode> {
     for drawing in &drawings {
         drawing.show(&mut page, args.size, &fonts, console)?;
     }
-    output::write_page(&args.output, page)?;
+    let taken = output::taken(inputs.iter().map(|input| input.path.as_path()));
+    output::write_page(&args.output, page, &taken)?;
     console.result(format!("{}\n", args.output.join("index.html").display()).as_bytes())?;
     Ok(ExitCode::Ok)
 }

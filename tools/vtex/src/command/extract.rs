@@ -1,5 +1,6 @@
 //! `vtex extract`.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use serde_json::json;
@@ -31,6 +32,7 @@ pub(super) fn run(args: &Extract, console: Console) -> Outcome<ExitCode> {
     output::create_folder(&args.output)?;
     let mut folder = Folder {
         path: args.output.clone(),
+        taken: output::taken([args.file.as_path()]),
         written: Vec::new(),
     };
     folder.shader(&file)?;
@@ -59,6 +61,8 @@ fn file_count(file: &VtexFile) -> usize {
 
 struct Folder {
     path: PathBuf,
+    /// What no part may overwrite.
+    taken: BTreeSet<PathBuf>,
     /// Names for the report.
     written: Vec<String>,
 }
@@ -66,7 +70,7 @@ struct Folder {
 impl Folder {
     fn write(&mut self, name: &str, bytes: &[u8]) -> Outcome<()> {
         let path = self.path.join(Path::new(name));
-        output::write(&path, bytes)?;
+        output::write_apart(&path, bytes, &self.taken)?;
         self.written.push(lossy(&path));
         Ok(())
     }

@@ -147,14 +147,23 @@ fn explain(path: &Path, target: &Path, error: &io::Error) -> Failure {
 /// Writes a page into `folder`, the pictures before the text that shows them.
 ///
 /// # Errors
-/// When the folder cannot be created or a file cannot be written.
-pub(crate) fn write_page(folder: &Path, page: Page) -> Outcome<()> {
+/// When the folder cannot be created, or a file cannot be written or is one of `taken`.
+pub(crate) fn write_page(folder: &Path, page: Page, taken: &BTreeSet<PathBuf>) -> Outcome<()> {
     for file in page.finish() {
         let path = folder.join(&file.name);
         create_folder(folder_of(&path))?;
-        write(&path, &file.bytes)?;
+        write_apart(&path, &file.bytes, taken)?;
     }
     Ok(())
+}
+
+/// Writes a file that the user has not named, in a folder that may hold anything.
+///
+/// # Errors
+/// As [`keep_apart`] and [`write`].
+pub(crate) fn write_apart(path: &Path, bytes: &[u8], taken: &BTreeSet<PathBuf>) -> Outcome<()> {
+    keep_apart(path, taken)?;
+    write(path, bytes)
 }
 
 /// Creates a folder and those above it.
