@@ -5,7 +5,7 @@ use vtex_format::Features;
 
 use super::Sampler;
 use super::math::clamp;
-use crate::layout::address::{BORDER, MIRROR, REPEAT};
+use crate::layout::address::{BORDER, CLAMP, MIRROR, REPEAT};
 
 /// Units along the canvas, at least: without curves there are none.
 const LEAST_UNITS: f32 = 131_072.0;
@@ -31,6 +31,18 @@ pub(super) fn axes(sampler: &Sampler<'_>, axes: [f32; 4]) -> [f32; 4] {
     let first = linear(m, [axes[0], axes[1]]);
     let second = linear(m, [axes[2], axes[3]]);
     [first[0], first[1], second[0], second[1]]
+}
+
+/// Axes in uv, after the matrix. In clamp mode, beyond a side of the canvas all of a footprint shows
+/// what the side does.
+pub(super) fn kept(sampler: &Sampler<'_>, uv: [f32; 2], mut axes: [f32; 4]) -> [f32; 4] {
+    for axis in 0..2 {
+        let clamps = sampler.settings.address[axis] == CLAMP;
+        if clamps && clamp(uv[axis], 0.0, 1.0) != uv[axis] {
+            (axes[axis], axes[axis + 2]) = (0.0, 0.0);
+        }
+    }
+    axes
 }
 
 fn axis(t: f32, mode: u32) -> f32 {

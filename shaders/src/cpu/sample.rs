@@ -19,6 +19,7 @@ pub(super) fn sample(sampler: &Sampler<'_>, uv: [f32; 2], axes: [f32; 4]) -> [f3
 
 /// What of the cells and mips a lookup asks for.
 pub(super) fn lookup(sampler: &Sampler<'_>, uv: [f32; 2], axes: [f32; 4]) -> Lookup {
-    let place = mapping::address(sampler, mapping::point(sampler, uv));
-    Lookup::new(sampler, place, mapping::axes(sampler, axes))
+    let moved = mapping::point(sampler, uv);
+    let axes = mapping::kept(sampler, moved, mapping::axes(sampler, axes));
+    Lookup::new(sampler, mapping::address(sampler, moved), axes)
 }

@@ -2,7 +2,7 @@
 
 use vtex_format::{AddressMode, VtexFile};
 use vtex_shaders::cpu::Sampler;
-use vtex_shaders::{PackOptions, pack};
+use vtex_shaders::{FilterMode, PackOptions, pack};
 
 use crate::builder::{row_of, set_solid};
 use crate::formula;
@@ -98,4 +98,25 @@ fn the_footprint_goes_through_the_matrix() {
     let (plain, halved) = (alpha(1.0, 0.55, 0.4), alpha(0.5, 1.1, 0.8));
     assert!((plain - halved).abs() < 1e-6, "{plain} and {halved}");
     assert!(plain > 0.55 && plain < 0.75, "on the ramp: {plain}");
+}
+
+/// Beyond a side that it is clamped to, all of a footprint shows the side; along it, it keeps its extent.
+#[test]
+fn beyond_a_side_a_footprint_shows_the_side() {
+    use AddressMode::Clamp;
+    let options = PackOptions {
+        address: Some([Clamp; 2]),
+        filter: FilterMode::Footprint,
+        ..PackOptions::default()
+    };
+    let words = pack(&steps(), &options);
+    let sampler = Sampler::new(&words);
+    let wide = [0.7, 0.0, 0.0, 0.2];
+    for (u, side) in [(-0.1, 0.0), (1.2, 1.0)] {
+        let beyond = sampler.sample([u, 0.5], wide);
+        assert_eq!(beyond, sampler.sample([side, 0.5], [0.0; 4]), "at {u}");
+    }
+    let below = sampler.sample([0.5, 1.3], wide);
+    assert_eq!(below, sampler.sample([0.5, 1.0], [0.7, 0.0, 0.0, 0.0]));
+    assert_ne!(below, sampler.sample([0.5, 1.0], [0.0; 4]));
 }

@@ -39,6 +39,14 @@ fn vtex_mapping_axis(t: f32, mode: u32) -> f32 {
     }
 }
 
+// Axes in uv, after the matrix. In clamp mode, beyond a side of the canvas all of a footprint shows what
+// the side does.
+fn vtex_mapping_kept(vt: VtexTexture, uv: vec2f, axes: vec4f) -> vec4f {
+    let clamps = vt.address == vec2u(VTEX_ADDRESS_CLAMP);
+    let placed = select(uv, clamp(uv, vec2f(0.0), vec2f(1.0)), clamps);
+    return select(vec4f(0.0), axes, (placed == uv).xyxy);
+}
+
 fn vtex_mapping_address(vt: VtexTexture, uv: vec2f) -> vec2f {
     let inset = vtex_mapping_inset(vt);
     let u = vtex_mapping_axis(uv.x, vt.address.x);

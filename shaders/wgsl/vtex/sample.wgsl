@@ -15,7 +15,8 @@ fn vtex_sample_at(first: u32, uv: vec2f, footprint: vec4f) -> vec4f {
         return vec4f(0.0);
     }
     let place = vtex_mapping_address(vt, moved);
-    let lookup = vtex_lookup(vt, place, vtex_mapping_axes(vt, footprint));
+    let axes = vtex_mapping_kept(vt, moved, vtex_mapping_axes(vt, footprint));
+    let lookup = vtex_lookup(vt, place, axes);
     let color = vtex_minify(vt, lookup);
     return select(color, vec4f(color.a), vtex_settings_has(vt, VTEX_FEATURE_MASK));
 }
