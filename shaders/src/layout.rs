@@ -363,6 +363,11 @@ pub(crate) fn has_list(word: u32) -> bool {
     word >> cell::TAG_SHIFT >= cell::LIST
 }
 
+/// Whether the word of a base cell names a block.
+pub(crate) const fn is_block(word: u32) -> bool {
+    word >> cell::BLOCK_SHIFT == cell::BLOCK
+}
+
 /// What a lookup returns of the picture that the cells show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u32)]
