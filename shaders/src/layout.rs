@@ -139,7 +139,7 @@ mod cell = "CELL" {
     /// By how much of its side the list of a cell goes beyond it on each side, as far as the
     /// file's cell goes, in sixteenths. Only footprint lookups read it; for others it does not.
     OVERLAP = 4;
-    /// Position from which the word of a base cell that a block divides is [`BLOCK`](cell::BLOCK).
+    /// Position from which the word of a base cell that a block divides is `BLOCK`.
     BLOCK_SHIFT = TAG_SHIFT - 1;
     /// The bits of such a word from there: an empty cell's, and one that no empty cell has.
     BLOCK = 1;
@@ -148,7 +148,7 @@ mod cell = "CELL" {
     /// The greatest depth, and the bits of one.
     DEPTH_MASK = 7;
     /// Bits of a block's place: its first word behind that of the first base cell, in groups of
-    /// [`BLOCK_WORDS`](cell::BLOCK_WORDS).
+    /// `BLOCK_WORDS`.
     PLACE_MASK = (1 << DEPTH_SHIFT) - 1;
     /// Each block takes a multiple of so many words.
     BLOCK_WORDS = 4;
@@ -361,6 +361,11 @@ pub const OFFSET_END: f32 = f32::MAX;
 /// Whether the word of a cell names a list.
 pub(crate) fn has_list(word: u32) -> bool {
     word >> cell::TAG_SHIFT >= cell::LIST
+}
+
+/// Whether the word of a base cell names a block.
+pub(crate) const fn is_block(word: u32) -> bool {
+    word >> cell::BLOCK_SHIFT == cell::BLOCK
 }
 
 /// What a lookup returns of the picture that the cells show.

@@ -91,17 +91,11 @@ impl Subject<'_> {
 fn moved(sampler: &Sampler<'_>, query: &BatchQuery, own: &[f32; 4]) -> f32 {
     let mut largest = 0.0_f32;
     for step in PLACE_ROUNDINGS {
-        for (u, v) in [
-            (-1, -1),
-            (-1, 0),
-            (-1, 1),
-            (0, -1),
-            (0, 1),
-            (1, -1),
-            (1, 0),
-            (1, 1),
-        ] {
-            let uv = [query.uv[0] + step * u as f32, query.uv[1] + step * v as f32];
+        for (u, v) in (-1_i8..=1).flat_map(|u| (-1_i8..=1).map(move |v| (u, v))) {
+            let uv = [
+                query.uv[0] + step * f32::from(u),
+                query.uv[1] + step * f32::from(v),
+            ];
             let by = difference(own, &sampler.sample(uv, query.footprint));
             // No number there says nothing about this place.
             largest = largest.max(if by.is_finite() { by } else { 0.0 });

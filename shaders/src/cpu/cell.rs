@@ -4,7 +4,7 @@ use super::Sampler;
 use super::cost::Observer;
 use super::math::{clamp, to_u32};
 use super::plane::Vec2;
-use crate::layout::cell;
+use crate::layout::{cell, is_block};
 
 /// A cell of the packed words.
 #[derive(Clone, Copy, Debug)]
@@ -76,8 +76,7 @@ pub(super) fn level(
 /// The word of the base cell that `p` lies in.
 fn base(sampler: &Sampler<'_>, p: Vec2, observer: &mut impl Observer) -> u32 {
     let s = &sampler.settings;
-    let place = [0, 1].map(|i| clamp(p[i], 0.0, s.last_place[i]));
-    let base = place.map(|at| to_u32(at * s.base_per_cell));
+    let base = place(sampler, p).map(|at| to_u32(at * s.base_per_cell));
     let index = base[1]
         .wrapping_mul(to_u32(s.base_columns))
         .wrapping_add(base[0]);
@@ -87,7 +86,7 @@ fn base(sampler: &Sampler<'_>, p: Vec2, observer: &mut impl Observer) -> u32 {
 
 /// Of a base cell's word: how deep its block is, or 0.
 const fn depth(word: u32) -> u32 {
-    if word >> cell::BLOCK_SHIFT == cell::BLOCK {
+    if is_block(word) {
         word >> cell::DEPTH_SHIFT & cell::DEPTH_MASK
     } else {
         0
@@ -104,14 +103,13 @@ fn of_block(
     observer: &mut impl Observer,
 ) -> Cell {
     let s = &sampler.settings;
-    let place = [0, 1].map(|i| clamp(p[i], 0.0, s.last_place[i]));
     let per_cell = s
         .base_per_cell
         .to_bits()
         .wrapping_add(depth << cell::EXPONENT_SHIFT);
-    let at = place.map(|at| (at * f32::from_bits(per_cell)).floor());
+    let at = place(sampler, p).map(|at| (at * f32::from_bits(per_cell)).floor());
     let mut found = Cell { word, per_cell, at };
-    if word >> cell::BLOCK_SHIFT == cell::BLOCK {
+    if is_block(word) {
         let inside = at.map(|at| to_u32(at) & ((1 << depth) - 1));
         let first = (word & cell::PLACE_MASK).wrapping_mul(cell::BLOCK_WORDS);
         let index = (inside[1] << depth).wrapping_add(inside[0]);
@@ -124,6 +122,10 @@ fn of_block(
 
 /// The corner of the file's cell that `p` lies in.
 pub(super) fn corner(sampler: &Sampler<'_>, p: Vec2) -> Vec2 {
-    let s = &sampler.settings;
-    [0, 1].map(|i| clamp(p[i], 0.0, s.last_place[i]).floor())
+    place(sampler, p).map(f32::floor)
+}
+
+/// The place in the grid that is nearest to `p`.
+fn place(sampler: &Sampler<'_>, p: Vec2) -> Vec2 {
+    [0, 1].map(|i| clamp(p[i], 0.0, sampler.settings.last_place[i]))
 }

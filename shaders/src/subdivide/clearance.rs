@@ -1,9 +1,10 @@
 //! How far around a cell everything shows the same: most footprints need to know no more.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use super::grid::{Grid, levels, places};
-use crate::layout::{cell, has_list};
+use crate::layout::{cell, has_list, is_block};
 
 /// Of a cell whose neighbours are not known to differ.
 #[expect(clippy::cast_possible_truncation, reason = "eleven bits")]
@@ -28,13 +29,15 @@ pub(super) fn write(grid: &mut Grid) {
     }
     between(grid, &mut clearances);
     if grid.has_levels {
-        for block in places(grid.size).filter_map(|at| grid.block_at(at)) {
+        // A block may stand in several places.
+        let blocks = places(grid.size).filter_map(|at| grid.block_at(at));
+        for block in blocks.collect::<BTreeSet<Block>>() {
             on_levels(grid, &block, &mut clearances);
         }
     }
     let base = grid.size[0] * grid.size[1];
     for (index, (word, clearance)) in grid.words.iter_mut().zip(clearances).enumerate() {
-        let divided = index < base && Block::of(*word).is_some();
+        let divided = index < base && is_block(*word);
         if !has_list(*word) && !divided {
             *word |= u32::from(clearance) << cell::CLEARANCE_SHIFT;
         }
@@ -42,7 +45,7 @@ pub(super) fn write(grid: &mut Grid) {
 }
 
 /// A block's place and depth.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Block {
     first: usize,
     depth: u32,
@@ -51,7 +54,7 @@ struct Block {
 impl Block {
     /// Of a base cell's word.
     fn of(word: u32) -> Option<Self> {
-        (word >> cell::BLOCK_SHIFT == cell::BLOCK).then_some(Self {
+        is_block(word).then_some(Self {
             first: ((word & cell::PLACE_MASK) * cell::BLOCK_WORDS) as usize,
             depth: word >> cell::DEPTH_SHIFT & cell::DEPTH_MASK,
         })
@@ -172,7 +175,7 @@ fn between(grid: &Grid, clearances: &mut [u16]) {
     let mut distances = alone(base, columns);
     for (index, [x, y]) in places(grid.size).enumerate() {
         let word = base[index];
-        if distances[index] == 0 && !has_list(word) && Block::of(word).is_none() {
+        if distances[index] == 0 && !has_list(word) && !is_block(word) {
             distances[index] = beside(grid, [x, y], word);
         }
     }
@@ -294,7 +297,7 @@ fn alone(words: &[u32], pitch: usize) -> Vec<u16> {
     // Whether a cell shows a paint, as those beside it do.
     let mut even = Vec::with_capacity(words.len());
     for row in words.chunks_exact(pitch) {
-        let paint = |word: u32| !has_list(word) && Block::of(word).is_none();
+        let paint = |word: u32| !has_list(word) && !is_block(word);
         let first = even.len();
         even.extend(row.iter().map(|&word| paint(word)));
         let pairs = row.windows(2).map(|pair| pair[0] == pair[1]);

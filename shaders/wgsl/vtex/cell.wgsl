@@ -11,28 +11,35 @@ struct VtexCell {
     at: vec2f,
 }
 
-// The word of the base cell that `p`, in the file's cells, lies in.
+// The place in the grid that is nearest to `p`, in the file's cells.
+fn vtex_cell_place(vt: VtexTexture, p: vec2f) -> vec2f {
+    return clamp(p, vec2f(0.0), vt.base.xy);
+}
+
+// The word of the base cell that `p` lies in.
 fn vtex_cell_base(vt: VtexTexture, p: vec2f) -> u32 {
-    let place = clamp(p, vec2f(0.0), vt.base.xy);
     // Through signed integers, which processors convert to at once.
-    let base = vec2i(place * vt.base.z);
+    let base = vec2i(vtex_cell_place(vt, p) * vt.base.z);
     return vtex_word(vt, vt.cells + bitcast<u32>(base.y * i32(vt.base.w) + base.x));
+}
+
+fn vtex_cell_is_block(word: u32) -> bool {
+    return (word >> VTEX_CELL_BLOCK_SHIFT) == VTEX_CELL_BLOCK;
 }
 
 // Of a base cell's word: how deep its block is, or 0.
 fn vtex_cell_depth(word: u32) -> u32 {
-    let divided = (word >> VTEX_CELL_BLOCK_SHIFT) == VTEX_CELL_BLOCK;
-    return select(0u, (word >> VTEX_CELL_DEPTH_SHIFT) & VTEX_CELL_DEPTH_MASK, divided);
+    let depth = (word >> VTEX_CELL_DEPTH_SHIFT) & VTEX_CELL_DEPTH_MASK;
+    return select(0u, depth, vtex_cell_is_block(word));
 }
 
 // The cell that `p` lies in, where its base cell has `word`: of the level of this depth, which begins so
 // many words behind the block's first.
 fn vtex_cell_of_block(vt: VtexTexture, p: vec2f, word: u32, depth: u32, skipped: u32) -> VtexCell {
-    let place = clamp(p, vec2f(0.0), vt.base.xy);
     let per_cell = bitcast<u32>(vt.base.z) + (depth << VTEX_CELL_EXPONENT_SHIFT);
-    let at = floor(place * bitcast<f32>(per_cell));
+    let at = floor(vtex_cell_place(vt, p) * bitcast<f32>(per_cell));
     var cell = VtexCell(word, per_cell, at);
-    if (word >> VTEX_CELL_BLOCK_SHIFT) == VTEX_CELL_BLOCK {
+    if vtex_cell_is_block(word) {
         let inside = bitcast<vec2u>(vec2i(at)) & vec2u((1u << depth) - 1u);
         let first = vt.cells + (word & VTEX_CELL_PLACE_MASK) * VTEX_CELL_BLOCK_WORDS + skipped;
         cell.word = vtex_word(vt, first + (inside.y << depth) + inside.x);
@@ -53,5 +60,5 @@ fn vtex_cell_side(cell: VtexCell) -> f32 {
 
 // The corner of the file's cell that `p` lies in.
 fn vtex_cell_corner(vt: VtexTexture, p: vec2f) -> vec2f {
-    return floor(clamp(p, vec2f(0.0), vt.base.xy));
+    return floor(vtex_cell_place(vt, p));
 }

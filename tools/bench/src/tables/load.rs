@@ -7,11 +7,11 @@ use anyhow::{Context as _, Result};
 use vtex_format::{Limits, VtexFile};
 use vtex_shaders::{PackOptions, pack};
 
-use super::left_out;
 use super::sfg22::LAYER_SIZE;
+use super::{compared, left_out};
 use crate::report::{Cell, Table};
 use crate::subject::{BC7_SIZES, RASTER_SIZE, Subject, ktx2};
-use crate::timing::{Effort, Trial};
+use crate::timing::{Effort, Timing, Trial};
 
 /// Which of [`BC7_SIZES`] is read from a file.
 const READ: usize = 1;
@@ -73,15 +73,7 @@ fn row(subject: &Subject, texture: &[u8], effort: Effort) -> Result<Vec<Cell>> {
         kilobytes(texture.len()),
         kilobytes(file.len()),
     ]);
-    cells.extend(
-        timings
-            .iter()
-            .enumerate()
-            .map(|(index, timing)| Cell::Measured {
-                value: timing.milliseconds(),
-                ratio: (index > 0).then(|| timing.speed_against(&timings[0])),
-            }),
-    );
+    cells.extend(compared(&timings, Timing::milliseconds));
     Ok(cells)
 }
 

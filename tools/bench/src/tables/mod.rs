@@ -23,7 +23,19 @@ pub(crate) use rivals::{check_queries, fetch_table, minified_table, sfg22_table}
 pub(crate) use sizes::size_tables;
 pub(crate) use stages::stages_table;
 
+use crate::report::Cell;
 use crate::subject::Subject;
+use crate::timing::{Spread, Timing};
+
+/// A cell for each of the timings of one [`Effort::interleave`](crate::timing::Effort::interleave),
+/// with its ratio to the first.
+fn compared(timings: &[Timing], value: fn(&Timing) -> Spread) -> impl Iterator<Item = Cell> {
+    let cell = move |(index, timing): (usize, &Timing)| Cell::Measured {
+        value: value(timing),
+        ratio: (index > 0).then(|| timing.speed_against(&timings[0])),
+    };
+    timings.iter().enumerate().map(cell)
+}
 
 /// A note about the files for which the time did not suffice.
 fn left_out<'a>(subjects: impl IntoIterator<Item = &'a Subject>) -> String {

@@ -9,10 +9,10 @@ use vtex_format::{CellWord, Entry, EntryKind, Grid, Image, SpecKey, VtexFile};
 use vtex_runtime::{LoadOptions, Scene, TraceOptions, Tracer, scene};
 use vtex_scenes::showroom;
 
-use super::left_out;
+use super::{compared, left_out};
 use crate::report::{Cell, Table};
 use crate::subject::{Subject, rasterise, read};
-use crate::timing::{Device, Effort, Trial};
+use crate::timing::{Device, Effort, Timing, Trial};
 
 /// Size of the film on a graphics card, and in software: a software driver traces about a million
 /// rays per second, and a card is done with as many before its clock can tell.
@@ -148,15 +148,7 @@ fn row(device: &Device, name: &str, scenes: &[Scene], effort: Effort) -> Result<
         .collect();
     let timings = effort.interleave(trials)?;
     let mut cells = vec![Cell::Text(name.to_owned())];
-    cells.extend(
-        timings
-            .iter()
-            .enumerate()
-            .map(|(index, timing)| Cell::Measured {
-                value: timing.millions_a_second(),
-                ratio: (index > 0).then(|| timing.speed_against(&timings[0])),
-            }),
-    );
+    cells.extend(compared(&timings, Timing::millions_a_second));
     Ok(cells)
 }
 

@@ -2,10 +2,11 @@
 
 use anyhow::{Result, ensure};
 
+use super::compared;
 use super::sfg22::{self, LAYER_COUNTS, LAYER_SIZE};
 use crate::report::{Cell, Table};
 use crate::subject::{RASTER_SIZE, halves_kernel, hardware_kernel, synthetic};
-use crate::timing::{Device, Effort, Kernel, QuerySet, Screen, Trial};
+use crate::timing::{Device, Effort, Kernel, QuerySet, Screen, Timing, Trial};
 
 /// Texels of the mip chains compared when minified: the baker's default.
 const MIP0_SIZE: u32 = 512;
@@ -124,13 +125,10 @@ fn lookups_table(
             .iter()
             .map(|(_, kernel)| Trial::timed(set.len(), || device.time(kernel, &batch)));
         let timings = effort.interleave(trials.collect())?;
-        for (index, (row, timing)) in rows.iter_mut().zip(&timings).enumerate() {
-            let ratio = (index > 0).then(|| timing.speed_against(&timings[0]));
-            row.push(Cell::Measured {
-                value: timing.millions_a_second(),
-                ratio,
-            });
-        }
+        let cells = compared(&timings, Timing::millions_a_second);
+        rows.iter_mut()
+            .zip(cells)
+            .for_each(|(row, cell)| row.push(cell));
     }
     rows.into_iter().for_each(|row| table.row(row));
     Ok(table)

@@ -46,11 +46,12 @@ impl Effort {
         while start.elapsed() < self.warm_up
             || !is_steady(&latest) && start.elapsed() < PATIENCE * self.warm_up
         {
-            let mut times = Vec::with_capacity(trials.len());
-            for trial in &mut trials {
-                times.push((trial.run)()?.as_secs_f64());
+            for (index, trial) in trials.iter_mut().enumerate() {
+                let seconds = (trial.run)()?.as_secs_f64();
+                if index == 0 {
+                    latest = [seconds, latest[0], latest[1]];
+                }
             }
-            latest = [times.first().copied().unwrap_or(0.0), latest[0], latest[1]];
         }
         interleave(trials, self.rounds)
     }

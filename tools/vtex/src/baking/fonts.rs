@@ -6,6 +6,7 @@ use usvg::fontdb;
 
 use crate::cli::args::Fonts;
 use crate::cli::{ExitCode, Failure, Outcome};
+use crate::files::is_gzip;
 
 /// The fonts that the command line names.
 #[derive(Debug)]
@@ -114,5 +115,5 @@ fn describe(face: &fontdb::FaceInfo) -> String {
 
 /// Whether an SVG may hold text. Gzipped files are not unpacked for this and count as yes.
 fn may_hold_text(svg: &[u8]) -> bool {
-    svg.starts_with(&[0x1f, 0x8b]) || svg.windows(4).any(|window| window == b"text")
+    is_gzip(svg) || svg.windows(4).any(|window| window == b"text")
 }

@@ -273,6 +273,12 @@ pub(crate) struct Lookup {
     pub(crate) spp: u32,
 }
 
+/// A value as the command line spells it.
+pub(crate) fn spelled(value: &impl ValueEnum) -> String {
+    let value = value.to_possible_value();
+    value.map_or_else(String::new, |value| value.get_name().to_owned())
+}
+
 /// How a lookup filters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Filter {
@@ -285,17 +291,6 @@ pub(crate) enum Filter {
     /// The picture at the sample itself, with edges of MSDFs smoothed over the constant width of
     /// `bake --smoothing`; edges of curves and images stay hard
     Paper,
-}
-
-impl Filter {
-    /// As the command line spells it.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Point => "point",
-            Self::Footprint => "footprint",
-            Self::Paper => "paper",
-        }
-    }
 }
 
 impl From<Filter> for FilterMode {
@@ -316,16 +311,6 @@ pub(crate) enum Backend {
     Cpu,
     /// On the best GPU adapter, or on the one that `VTEX_ADAPTER` names
     Gpu,
-}
-
-impl Backend {
-    /// As the command line spells it.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Cpu => "cpu",
-            Self::Gpu => "gpu",
-        }
-    }
 }
 
 /// `vtex preview`.

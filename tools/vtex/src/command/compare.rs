@@ -12,7 +12,7 @@ use vtex_truth::reference::{Edges, Reference};
 use vtex_truth::texture::{RasterTexture, Shooter, TODAY_TEXELS, canvas_options, region_uv};
 
 use crate::baking::fonts::FontLibrary;
-use crate::cli::args::Compare;
+use crate::cli::args::{Compare, spelled};
 use crate::cli::{Console, ExitCode, Failure, Format, Outcome};
 use crate::files::{extension, input, is_svg, lossy, output};
 use crate::texture;
@@ -162,7 +162,7 @@ fn json(args: &Compare, reports: &[ZoomReport], noise_db: Option<&[f64]>) -> Val
     };
     json!({
         "svg": lossy(&args.svg), "file": lossy(&args.file), "size": args.size, "spp": args.lookup.spp,
-        "filter": args.lookup.filter.name(), "backend": args.lookup.backend.name(),
+        "filter": spelled(&args.lookup.filter), "backend": spelled(&args.lookup.backend),
         "zooms": reports.iter().enumerate().map(zoom).collect::<Vec<_>>(),
     })
 }

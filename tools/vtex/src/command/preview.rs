@@ -7,7 +7,7 @@ use vtex_format::VtexFile;
 use vtex_truth::picture::{Shot, View, fit_size};
 use vtex_truth::texture::{pack_options, region_uv};
 
-use crate::cli::args::Preview;
+use crate::cli::args::{Preview, spelled};
 use crate::cli::{Console, ExitCode, Failure, Format, Outcome, Size};
 use crate::files::{extension, input, lossy, output};
 use crate::texture;
@@ -40,7 +40,7 @@ pub(super) fn run(args: &Preview, console: Console) -> Outcome<ExitCode> {
         console.json(&json!({
             "input": lossy(&args.file), "output": lossy(&args.output), "bytes": png.len(),
             "size_px": shot.size_px, "view": view.as_array(), "spp": args.lookup.spp,
-            "filter": args.lookup.filter.name(), "backend": args.lookup.backend.name(),
+            "filter": spelled(&args.lookup.filter), "backend": spelled(&args.lookup.backend),
             "seconds": begun.elapsed().as_secs_f64(),
         }))?;
     }

@@ -9,7 +9,7 @@ use vtex_format::VtexFile;
 use vtex_truth::picture::View;
 
 use crate::baking::fonts::FontLibrary;
-use crate::cli::args::Render;
+use crate::cli::args::{Render, spelled};
 use crate::cli::{Console, ExitCode, Failure, Format, Outcome, Size};
 use crate::files::{extension, input, lossy, output};
 use crate::texture::film::{self, SceneKind, Settings};
@@ -69,7 +69,7 @@ pub(super) fn run(args: Render, console: Console) -> Outcome<ExitCode> {
         let inputs: Vec<String> = args.scene.iter().map(|path| lossy(path)).collect();
         console.json(&json!({
             "inputs": inputs, "output": lossy(&args.output), "bytes": bytes.len(),
-            "size_px": size_px, "spp": spp, "filter": filter.name(), "bounces": bounces,
+            "size_px": size_px, "spp": spp, "filter": spelled(&filter), "bounces": bounces,
             "seed": seed, "showroom": kind == SceneKind::Showroom,
             "seconds": begun.elapsed().as_secs_f64(),
         }))?;

@@ -10,11 +10,16 @@ pub(crate) fn lossy(path: &Path) -> String {
     path.to_string_lossy().into_owned()
 }
 
+/// Whether bytes are those of a gzip file (RFC 1952, 2.3.1).
+pub(crate) fn is_gzip(bytes: &[u8]) -> bool {
+    bytes.starts_with(&[0x1f, 0x8b])
+}
+
 /// Whether the bytes of the file at `path` look like an SVG, plain or gzipped.
 pub(crate) fn is_svg(path: &Path, bytes: &[u8]) -> bool {
     /// Enough for the comments and entities that precede the root element.
     const HEAD_BYTES: usize = 1 << 16;
-    if bytes.starts_with(&[0x1f, 0x8b]) {
+    if is_gzip(bytes) {
         return extension(path) == "svgz";
     }
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(HEAD_BYTES)]);

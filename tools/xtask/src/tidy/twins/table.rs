@@ -68,6 +68,7 @@ pub(super) const ONLY_RUST: &[(&str, &[&str], &str)] = &[
 
 /// Function of WGSL, and why the twin has none.
 pub(super) const ONLY_WGSL: &[(&str, &str)] = &[
+    ("vtex_cell_is_block", "layout.rs has it, for packing too"),
     ("vtex_resolved_count", "one expression of Resolved::of"),
     (
         "vtex_outline_tag",
