@@ -21,8 +21,8 @@ fn vtex_mapping_address(vt: VtexTexture, uv: vec2f) -> vec2f {
     return clamp(uv, inset, 1.0 - inset);
 }
 
-fn vtex_mapping_outside(vt: VtexTexture, uv: vec2f) -> bool {
-    return false;
+fn vtex_mapping_share(vt: VtexTexture, uv: vec2f, axes: vec4f) -> f32 {
+    return 1.0;
 }
 
 fn vtex_mapping_wraps(vt: VtexTexture) -> vec2<bool> {
