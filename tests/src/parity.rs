@@ -6,8 +6,8 @@ use std::io::Write as _;
 
 use rayon::prelude::*;
 use vtex_format::Features;
-use vtex_shaders::BatchQuery;
 use vtex_shaders::cpu::Sampler;
+use vtex_shaders::{BatchQuery, TexelPages};
 
 use crate::random::Random;
 
@@ -29,6 +29,8 @@ const STRAY_SAMPLES: f32 = 2.0;
 pub struct Subject<'a> {
     /// What the twin reads: the words of one texture.
     pub words: &'a [u32],
+    /// The pages that these words name.
+    pub texels: &'a TexelPages,
     /// Bits of [`Features`] of the texture's own key, which say how it is filtered.
     pub features: u32,
 }
@@ -36,7 +38,7 @@ pub struct Subject<'a> {
 impl Subject<'_> {
     /// What the twin answers.
     pub fn twin(&self, queries: &[BatchQuery]) -> Vec<[f32; 4]> {
-        let sampler = Sampler::new(self.words);
+        let sampler = Sampler::of(self.words, self.texels);
         let look = |query: &BatchQuery| sampler.sample(query.uv, query.footprint);
         queries.par_iter().map(look).collect()
     }
@@ -61,7 +63,7 @@ impl Subject<'_> {
             allowed: share * count as f64,
             ..Parity::default()
         };
-        let sampler = Sampler::new(self.words);
+        let sampler = Sampler::of(self.words, self.texels);
         for (query, (twin, gpu)) in queries.iter().zip(twin.iter().zip(gpu)) {
             let difference = difference(twin, gpu);
             if difference <= ROUNDING {

@@ -1,0 +1,256 @@
+//! Texels of images in pages, as the layers of one texture array hold them.
+//!
+//! Every mip level of an image is a rectangle of its own, with a border of one texel around it, so
+//! that a bilinear lookup at its sides finds what the address mode asks for (docs/decisions/0020).
+
+mod arrange;
+mod skyline;
+
+use vtex_format::Image;
+
+use crate::cpu::to_u32;
+use crate::srgb;
+
+pub(crate) use arrange::Place;
+use arrange::arrange;
+
+/// Bytes of a texel.
+const TEXEL_BYTES: usize = 4;
+/// Texels around a level on each side.
+const BORDER: u32 = 1;
+/// Texels along a page at most: what every WebGPU device has. A level that is larger is left out.
+pub const MAX_PAGE_SIDE: u32 = 8192;
+
+/// Pages of one size with the texels of one or more textures. A texel is RGBA8: linear light,
+/// premultiplied, then sRGB-encoded; alpha as it is. So the format with sRGB decoding filters it
+/// correctly.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TexelPages {
+    size: [u32; 2],
+    bytes: Vec<u8>,
+    /// Linear light of the codes of a channel.
+    decode: Box<[f32; 256]>,
+}
+
+/// A level of an image, on its way into a page.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Level<'a> {
+    /// Row by row.
+    pub(crate) texels: &'a [u8],
+    pub(crate) size: [u32; 2],
+    /// Axes along which the border shows the other side; along others it repeats the last texel.
+    pub(crate) wraps: [bool; 2],
+}
+
+impl Default for TexelPages {
+    /// One page of one empty texel.
+    fn default() -> Self {
+        Self::new([1; 2], 1)
+    }
+}
+
+impl TexelPages {
+    fn new(size: [u32; 2], count: usize) -> Self {
+        let texels = size[0] as usize * size[1] as usize;
+        Self {
+            size,
+            bytes: vec![0; TEXEL_BYTES * texels * count],
+            decode: Box::new(srgb::decode_table()),
+        }
+    }
+
+    /// Pages with `levels`, and where the first texel of each lies.
+    pub(crate) fn filled(levels: &[Level<'_>]) -> (Self, Vec<Place>) {
+        let rooms: Vec<[u32; 2]> = levels
+            .iter()
+            .map(|level| level.size.map(|side| side + 2 * BORDER))
+            .collect();
+        let arranged = arrange(&rooms);
+        let mut pages = Self::new(arranged.page, arranged.count);
+        let inside = |place: Place| Place {
+            corner: place.corner.map(|side| side + BORDER),
+            ..place
+        };
+        let places: Vec<Place> = arranged.places.into_iter().map(inside).collect();
+        for (level, place) in levels.iter().zip(&places) {
+            pages.fill(level, place);
+        }
+        (pages, places)
+    }
+
+    /// Texels along a page, along x and y.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Number of pages, at least one.
+    pub fn count(&self) -> u32 {
+        let count = self.bytes.len() / self.page_bytes();
+        u32::try_from(count).unwrap_or(u32::MAX)
+    }
+
+    /// The texels, page by page and row by row, four bytes each.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    fn page_bytes(&self) -> usize {
+        TEXEL_BYTES * self.size[0] as usize * self.size[1] as usize
+    }
+
+    /// Copies a level and its border.
+    fn fill(&mut self, level: &Level<'_>, place: &Place) {
+        let [width, height] = level.size;
+        let row_bytes = TEXEL_BYTES * width as usize;
+        for y in 0..height + 2 * BORDER {
+            let from = row_bytes * bordered(y, height, level.wraps[1]);
+            let Some(row) = level.texels.get(from..from + row_bytes) else {
+                return;
+            };
+            let [left, top] = place.corner.map(|side| side - BORDER);
+            let mut put = |x: u32, texels: &[u8]| {
+                let at = self.offset(place.page, left + x, top + y);
+                self.bytes[at..at + texels.len()].copy_from_slice(texels);
+            };
+            put(BORDER, row);
+            for x in (0..BORDER).chain(BORDER + width..2 * BORDER + width) {
+                let from = TEXEL_BYTES * bordered(x, width, level.wraps[0]);
+                put(x, &row[from..from + TEXEL_BYTES]);
+            }
+        }
+    }
+
+    /// Byte of a texel; places beyond the far sides of the page are their last texels.
+    fn offset(&self, page: u32, x: u32, y: u32) -> usize {
+        let [x, y] = [x.min(self.size[0] - 1), y.min(self.size[1] - 1)].map(|at| at as usize);
+        let texel = y * self.size[0] as usize + x;
+        (page as usize)
+            .saturating_mul(self.page_bytes())
+            .saturating_add(TEXEL_BYTES * texel)
+    }
+
+    /// What a bilinear lookup with sRGB decoding returns at a place in texels, whose centres lie at
+    /// +0.5; the sides of a page go on for ever. Nothing for a page that is not there.
+    pub(crate) fn bilinear(&self, page: u32, place: [f32; 2]) -> [f32; 4] {
+        let from_centre = place.map(|at| (at - 0.5).max(0.0));
+        let corner = from_centre.map(f32::floor);
+        let [fx, fy] = [0, 1].map(|axis| from_centre[axis] - corner[axis]);
+        let [x, y] = corner.map(to_u32);
+        let [right, below] = [x, y].map(|at| at.saturating_add(1));
+        let texel = |x, y| self.texel(self.offset(page, x, y));
+        let mix = |a: [f32; 4], b: [f32; 4], t: f32| -> [f32; 4] {
+            std::array::from_fn(|i| a[i] + t * (b[i] - a[i]))
+        };
+        let upper = mix(texel(x, y), texel(right, y), fx);
+        let lower = mix(texel(x, below), texel(right, below), fx);
+        mix(upper, lower, fy)
+    }
+
+    fn texel(&self, at: usize) -> [f32; 4] {
+        let found = self.bytes.get(at..).and_then(<[u8]>::first_chunk);
+        let &[r, g, b, a] = found.unwrap_or(&[0; TEXEL_BYTES]);
+        let [r, g, b] = [r, g, b].map(|code| self.decode[usize::from(code)]);
+        [r, g, b, f32::from(a) / 255.0]
+    }
+}
+
+/// Of `count` texels behind a border the one that the place `index` shows.
+fn bordered(index: u32, count: u32, wraps: bool) -> usize {
+    let inside = if wraps {
+        (index + count - BORDER) % count
+    } else {
+        index.saturating_sub(BORDER).min(count - 1)
+    };
+    inside as usize
+}
+
+/// Levels of `image` that fit a page, the finest first, with the index of the first.
+pub(crate) fn levels_of(image: &Image, wraps: [bool; 2]) -> (u32, Vec<Level<'_>>) {
+    let sized = (0..).zip(&image.mips).map(|(level, texels)| Level {
+        texels,
+        size: Image::level_size(image.size, level),
+        wraps,
+    });
+    let too_large = |level: &Level<'_>| level.size.iter().any(|&s| s > MAX_PAGE_SIDE - 2 * BORDER);
+    let levels: Vec<Level<'_>> = sized.skip_while(too_large).collect();
+    let left_out = image.mips.len() - levels.len();
+    (u32::try_from(left_out).unwrap_or(u32::MAX), levels)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn level(size: [u32; 2], texels: &[u8], wraps: [bool; 2]) -> Level<'_> {
+        Level {
+            texels,
+            size,
+            wraps,
+        }
+    }
+
+    /// Bytes count up from `first`.
+    fn counted(first: u8, texels: u8) -> Vec<u8> {
+        (first..first + 4 * texels).collect()
+    }
+
+    #[test]
+    fn a_border_repeats_the_edge_or_shows_the_other_side() {
+        let texels = counted(0, 6);
+        for wraps in [[false; 2], [true, false], [false, true], [true; 2]] {
+            let (pages, places) = TexelPages::filled(&[level([3, 2], &texels, wraps)]);
+            assert_eq!((pages.size(), pages.count()), ([5, 4], 1));
+            assert_eq!(places[0].corner, [1, 1]);
+            let columns = if wraps[0] {
+                [2, 0, 1, 2, 0]
+            } else {
+                [0, 0, 1, 2, 2]
+            };
+            let rows = if wraps[1] { [1, 0, 1, 0] } else { [0, 0, 1, 1] };
+            let shown = rows.map(|row| columns.map(|column| 4 * (3 * row + column)));
+            let reds = pages.bytes().chunks_exact(4).map(|texel| texel[0]);
+            assert!(reds.eq(shown.into_iter().flatten()), "{wraps:?}");
+        }
+    }
+
+    #[test]
+    fn a_lookup_is_bilinear_in_linear_light() {
+        let texels = [0, 0, 0, 255, 255, 188, 0, 255];
+        let (pages, places) = TexelPages::filled(&[level([2, 1], &texels, [false; 2])]);
+        let [left, top] = places[0].corner.map(|side| side as f32);
+        for (x, weight) in [
+            (0.0, 0.0),
+            (0.5, 0.0),
+            (0.75, 0.25),
+            (1.0, 0.5),
+            (1.5, 1.0),
+            (2.0, 1.0),
+        ] {
+            for y in [0.0, 0.5, 1.0] {
+                let got = pages.bilinear(0, [left + x, top + y]);
+                let expected = [weight, weight * srgb::decode(188.0 / 255.0), 0.0, 1.0];
+                let near = got.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6);
+                assert!(near, "{x} {y}: {got:?}, not {expected:?}");
+            }
+        }
+        for place in [[-1e9, f32::NAN], [f32::INFINITY, 1e30]] {
+            assert!(pages.bilinear(0, place)[1] != 1.0, "no panic");
+        }
+        assert_eq!(pages.bilinear(1, [0.5; 2]), [0.0; 4]);
+    }
+
+    #[test]
+    fn levels_too_large_for_a_page_are_left_out() {
+        let size = [4 * MAX_PAGE_SIDE, 1];
+        let count = Image::level_count(size);
+        let image = Image {
+            rect_uv: [0.0, 0.0, 1.0, 1.0],
+            size,
+            mips: vec![Vec::new(); count as usize],
+        };
+        let (first, levels) = levels_of(&image, [false; 2]);
+        assert_eq!(first, 3, "8192 texels have no room for a border");
+        assert_eq!(levels.len(), count as usize - 3);
+        assert_eq!(levels[0].size, [MAX_PAGE_SIDE / 2, 1]);
+    }
+}
