@@ -274,7 +274,8 @@ mod tests {
             "width='60' height='40' transform='{places}'"
         )));
         assert!(turned.provenance.as_ref().unwrap().warnings.is_empty());
-        let [packed, mirrored] = [&upright, &turned].map(|file| pack(file, &PackOptions::default()));
+        let [packed, mirrored] =
+            [&upright, &turned].map(|file| pack(file, &PackOptions::default()));
         for (u, v) in [(0.07, 0.03), (0.21, 0.33), (0.55, 0.12), (0.59, 0.39)] {
             let seen = cpu::Sampler::new(&packed).sample([u, v], [0.0; 4]);
             let again = cpu::Sampler::new(&mirrored).sample([1.0 - u, 1.0 - v], [0.0; 4]);
