@@ -1,4 +1,5 @@
-//! The packed words that evaluators read: one `array<vec4u>` holds a whole texture.
+//! The packed words that evaluators read: one `array<vec4u>` holds all of a texture but the texels of its
+//! images.
 //!
 //! Several textures can lie in one array; every offset is relative to the texture's first word,
 //! so that a packed texture can be moved. All floats are f32 bits.

@@ -1,8 +1,8 @@
 //! A file as the words that evaluators read.
 
 use vtex_format::{
-    AddressMode, Features, Gradient, GradientShape, MAX_MIPS, PaintRecord, SHADER_ABI,
-    SamplerSettings, SpecKey, VtexFile,
+    AddressMode, Features, Gradient, GradientShape, PaintRecord, SHADER_ABI, SamplerSettings,
+    SpecKey, VtexFile,
 };
 
 use crate::cpu::{color, to_f32, to_u32};
@@ -304,7 +304,7 @@ fn image_words(words: &mut Vec<u32>, file: &VtexFile) {
         let part = 0.5_f32.powi(left_out.cast_signed());
         let size = stored.size.map(|side| (part * to_f32(side)).to_bits());
         record[image::SIZE as usize..][..2].copy_from_slice(&size);
-        let last = levels.len().clamp(1, MAX_MIPS as usize) - 1;
+        let last = levels.len().saturating_sub(1);
         record[image::LAST_LEVEL as usize] = word_index(last);
         record
     });
@@ -340,7 +340,7 @@ fn image_levels<'a>(
         let wraps = if is_canvas { repeats } else { [false; 2] };
         let (_, own) = levels_of(stored, wraps);
         let from = levels.len();
-        levels.extend(own.into_iter().take(MAX_MIPS as usize));
+        levels.extend(own);
         Unplaced {
             places: records + index * image::WORDS as usize + image::LEVELS as usize,
             levels: from..levels.len(),

@@ -12,8 +12,8 @@ const COMMAND_BYTES: u32 = 4 * cmd::WORDS;
 const TILE_BYTES: u32 = 16;
 /// The half of a paint that a lookup reads, linear or encoded.
 const PAINT_BYTES: u32 = 16;
-/// An image's rectangle, its size, and the place and four texels of one level.
-const IMAGE_BYTES: u32 = 16 + 16 + 4 + 16;
+/// An image's rectangle, its size, the places of two levels, and four texels of one.
+const IMAGE_BYTES: u32 = 16 + 16 + 8 + 16;
 
 /// What one lookup reads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

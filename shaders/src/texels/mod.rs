@@ -6,7 +6,7 @@
 mod arrange;
 mod skyline;
 
-use vtex_format::Image;
+use vtex_format::{Image, MAX_MIPS};
 
 use crate::cpu::to_u32;
 use crate::srgb;
@@ -38,8 +38,22 @@ pub(crate) struct Level<'a> {
     /// Row by row.
     pub(crate) texels: &'a [u8],
     pub(crate) size: [u32; 2],
+    /// Texels that lookups reach, no fewer: the last ones are repeated as far.
+    pub(crate) reach: [u32; 2],
     /// Axes along which the border shows the other side; along others it repeats the last texel.
     pub(crate) wraps: [bool; 2],
+}
+
+impl Level<'_> {
+    /// The texel along an axis that shows at `index`, counted from the border.
+    fn shown(&self, index: u32, axis: usize) -> usize {
+        let inside = if self.wraps[axis] {
+            (index + self.reach[axis] - BORDER) % self.reach[axis]
+        } else {
+            index.saturating_sub(BORDER)
+        };
+        inside.min(self.size[axis] - 1) as usize
+    }
 }
 
 impl Default for TexelPages {
@@ -63,7 +77,7 @@ impl TexelPages {
     pub(crate) fn filled(levels: &[Level<'_>]) -> (Self, Vec<Place>) {
         let rooms: Vec<[u32; 2]> = levels
             .iter()
-            .map(|level| level.size.map(|side| side + 2 * BORDER))
+            .map(|level| level.reach.map(|side| side + 2 * BORDER))
             .collect();
         let arranged = arrange(&rooms);
         let mut pages = Self::new(arranged.page, arranged.count);
@@ -100,10 +114,10 @@ impl TexelPages {
 
     /// Copies a level and its border.
     fn fill(&mut self, level: &Level<'_>, place: &Place) {
-        let [width, height] = level.size;
-        let row_bytes = TEXEL_BYTES * width as usize;
-        for y in 0..height + 2 * BORDER {
-            let from = row_bytes * bordered(y, height, level.wraps[1]);
+        let [width, height] = level.reach.map(|side| side + 2 * BORDER);
+        let row_bytes = TEXEL_BYTES * level.size[0] as usize;
+        for y in 0..height {
+            let from = row_bytes * level.shown(y, 1);
             let Some(row) = level.texels.get(from..from + row_bytes) else {
                 return;
             };
@@ -113,8 +127,8 @@ impl TexelPages {
                 self.bytes[at..at + texels.len()].copy_from_slice(texels);
             };
             put(BORDER, row);
-            for x in (0..BORDER).chain(BORDER + width..2 * BORDER + width) {
-                let from = TEXEL_BYTES * bordered(x, width, level.wraps[0]);
+            for x in (0..BORDER).chain(BORDER + level.size[0]..width) {
+                let from = TEXEL_BYTES * level.shown(x, 0);
                 put(x, &row[from..from + TEXEL_BYTES]);
             }
         }
@@ -154,26 +168,18 @@ impl TexelPages {
     }
 }
 
-/// Of `count` texels behind a border the one that the place `index` shows.
-fn bordered(index: u32, count: u32, wraps: bool) -> usize {
-    let inside = if wraps {
-        (index + count - BORDER) % count
-    } else {
-        index.saturating_sub(BORDER).min(count - 1)
-    };
-    inside as usize
-}
-
 /// Levels of `image` that fit a page, the finest first, with the index of the first.
 pub(crate) fn levels_of(image: &Image, wraps: [bool; 2]) -> (u32, Vec<Level<'_>>) {
-    let sized = (0..).zip(&image.mips).map(|(level, texels)| Level {
+    let sized = (0..MAX_MIPS).zip(&image.mips).map(|(level, texels)| Level {
         texels,
         size: Image::level_size(image.size, level),
+        // A lookup's place is that in level 0 over a power of two.
+        reach: image.size.map(|side| side.div_ceil(1 << level).max(1)),
         wraps,
     });
-    let too_large = |level: &Level<'_>| level.size.iter().any(|&s| s > MAX_PAGE_SIDE - 2 * BORDER);
+    let too_large = |level: &Level<'_>| level.reach.iter().any(|&s| s > MAX_PAGE_SIDE - 2 * BORDER);
     let levels: Vec<Level<'_>> = sized.skip_while(too_large).collect();
-    let left_out = image.mips.len() - levels.len();
+    let left_out = image.mips.len().min(MAX_MIPS as usize) - levels.len();
     (u32::try_from(left_out).unwrap_or(u32::MAX), levels)
 }
 
@@ -185,6 +191,7 @@ mod tests {
         Level {
             texels,
             size,
+            reach: size,
             wraps,
         }
     }

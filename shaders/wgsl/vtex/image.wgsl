@@ -68,7 +68,7 @@ fn vtex_image_filtered(
     let coarse = vtex_image_weight(kept - level);
     // Behind the last level there is none, and it has no weight.
     let levels = vtex_word2(vt, record + VTEX_IMAGE_LEVELS + u32(level));
-    let page_size = vec2f(textureDimensions(vtex_texels));
+    let texel_size = 1.0 / vec2f(textureDimensions(vtex_texels));
     // Of the finer level: the size over 2 to the level.
     let texels = size * bitcast<f32>((127u - u32(level)) << 23u);
     // One of each level, or of one.
@@ -86,7 +86,7 @@ fn vtex_image_filtered(
         let corner = vec2u(word, word >> VTEX_IMAGE_Y_SHIFT) & vec2u(VTEX_IMAGE_X_MASK);
         let at = vec2f(corner) + inside * texels * select(1.0, 0.5, is_coarse);
         let texel = textureSampleLevel(
-            vtex_texels, vtex_sampler, at / page_size, word >> VTEX_IMAGE_PAGE_SHIFT, 0.0,
+            vtex_texels, vtex_sampler, at * texel_size, word >> VTEX_IMAGE_PAGE_SHIFT, 0.0,
         );
         value += select(1.0 - coarse, coarse, is_coarse) * texel;
         if tap == last_tap {
