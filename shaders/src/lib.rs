@@ -20,6 +20,7 @@ pub mod cpu;
 pub mod layout;
 mod link;
 mod pack;
+mod packed;
 #[cfg(feature = "precompile")]
 mod precompile;
 pub mod record;
@@ -32,7 +33,8 @@ mod texels;
 
 pub use layout::{BatchQuery, FilterMode};
 pub use link::{LinkContext, LinkError, link};
-pub use pack::{PackOptions, Packed, PackedSet, pack, pack_set};
+pub use pack::{PackOptions, pack, pack_set};
+pub use packed::{Packed, PackedSet};
 #[cfg(feature = "precompile")]
 pub use precompile::{PrecompileError, shader_blob, spirv};
 pub use spec::{kernel_key, spec_key};

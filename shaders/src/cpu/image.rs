@@ -1,5 +1,4 @@
-//! Twin of `vtex/image.wgsl`, and of `vtex/image_entry.wgsl`. What the sampler does there
-//! [`TexelPages::bilinear`](crate::TexelPages) does here.
+//! Twin of `vtex/image.wgsl`, and of `vtex/image_entry.wgsl`; here with what the sampler does there.
 
 use super::math::{clamp, to_f32, to_u32};
 use super::{Lookup, Sampler};
@@ -72,12 +71,32 @@ struct Level {
 }
 
 impl Level {
-    /// Bilinear, at a place in \[0, 1\] over the image.
-    fn texel(&self, sampler: &Sampler<'_>, inside: [f32; 2]) -> [f32; 4] {
+    /// At a place in \[0, 1\] over the image.
+    fn sample(&self, sampler: &Sampler<'_>, inside: [f32; 2]) -> [f32; 4] {
         let corner = [self.word, self.word >> image::Y_SHIFT].map(|at| at & image::X_MASK);
         let at = [0, 1].map(|axis| to_f32(corner[axis]) + inside[axis] * self.texels[axis]);
-        sampler.texels.bilinear(self.word >> image::PAGE_SHIFT, at)
+        bilinear(sampler, self.word >> image::PAGE_SHIFT, at)
     }
+}
+
+/// What a bilinear sample with sRGB decoding returns at a place in texels, whose centres lie at +0.5.
+fn bilinear(sampler: &Sampler<'_>, page: u32, place: [f32; 2]) -> [f32; 4] {
+    let from_centre = place.map(|at| (at - 0.5).max(0.0));
+    let corner = from_centre.map(f32::floor);
+    let [fx, fy] = [0, 1].map(|axis| from_centre[axis] - corner[axis]);
+    let [x, y] = corner.map(to_u32);
+    let [right, below] = [x, y].map(|at| at.saturating_add(1));
+    let texel = |x, y| {
+        let [r, g, b, a] = sampler.texels.texel(page, x, y);
+        let [r, g, b] = [r, g, b].map(|code| sampler.decode[usize::from(code)]);
+        [r, g, b, f32::from(a) / 255.0]
+    };
+    let mix = |a: [f32; 4], b: [f32; 4], t: f32| -> [f32; 4] {
+        std::array::from_fn(|i| a[i] + t * (b[i] - a[i]))
+    };
+    let upper = mix(texel(x, y), texel(right, y), fx);
+    let lower = mix(texel(x, below), texel(right, below), fx);
+    mix(upper, lower, fy)
 }
 
 /// `t` in \[0, 1\] over the image, whose record has this size and last level; `apart` is that of the
@@ -121,7 +140,7 @@ pub(super) fn filtered(
         });
         for (level, share) in levels {
             if share > 0.0 {
-                let texel = level.texel(sampler, inside);
+                let texel = level.sample(sampler, inside);
                 value = std::array::from_fn(|i| value[i] + share * texel[i]);
             }
         }

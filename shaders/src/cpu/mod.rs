@@ -36,7 +36,8 @@ use lookup::Lookup;
 pub(crate) use math::{to_f32, to_u32};
 use settings::Settings;
 
-use crate::{Packed, TexelPages};
+use crate::packed::Packed;
+use crate::texels::TexelPages;
 
 /// A packed texture ready to be looked up. Cheap to make and to copy; lookups allocate nothing.
 ///
@@ -46,6 +47,8 @@ use crate::{Packed, TexelPages};
 pub struct Sampler<'a> {
     words: &'a [u32],
     texels: &'a TexelPages,
+    /// Linear light of the codes of a texel's channel.
+    decode: &'static [f32; 256],
     settings: Settings,
 }
 
@@ -61,6 +64,7 @@ impl<'a> Sampler<'a> {
         Self {
             words,
             texels,
+            decode: &color::DECODED,
             settings: Settings::read(words),
         }
     }

@@ -115,10 +115,8 @@ mod tests {
         assert_eq!(arranged.places.len(), sizes.len());
         for (index, (place, size)) in arranged.places.iter().zip(sizes).enumerate() {
             assert!((place.page as usize) < arranged.count, "{sizes:?}");
-            for axis in 0..2 {
-                let end = place.corner[axis] + size[axis];
-                assert!(end <= arranged.page[axis], "{sizes:?}: {place:?}");
-            }
+            let inside = (0..2).all(|axis| place.corner[axis] + size[axis] <= arranged.page[axis]);
+            assert!(inside, "{sizes:?}: {place:?}");
             for (other, other_size) in arranged.places.iter().zip(sizes).skip(index + 1) {
                 let apart = (0..2).any(|axis| {
                     place.corner[axis] + size[axis] <= other.corner[axis]

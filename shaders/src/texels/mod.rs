@@ -8,9 +8,6 @@ mod skyline;
 
 use vtex_format::{Image, MAX_MIPS};
 
-use crate::cpu::to_u32;
-use crate::srgb;
-
 pub(crate) use arrange::Place;
 use arrange::arrange;
 
@@ -28,8 +25,6 @@ pub const MAX_PAGE_SIDE: u32 = 8192;
 pub struct TexelPages {
     size: [u32; 2],
     bytes: Vec<u8>,
-    /// Linear light of the codes of a channel.
-    decode: Box<[f32; 256]>,
 }
 
 /// A level of an image, on its way into a page.
@@ -69,7 +64,6 @@ impl TexelPages {
         Self {
             size,
             bytes: vec![0; TEXEL_BYTES * texels * count],
-            decode: Box::new(srgb::decode_table()),
         }
     }
 
@@ -143,28 +137,12 @@ impl TexelPages {
             .saturating_add(TEXEL_BYTES * texel)
     }
 
-    /// What a bilinear lookup with sRGB decoding returns at a place in texels, whose centres lie at
-    /// +0.5; the sides of a page go on for ever. Nothing for a page that is not there.
-    pub(crate) fn bilinear(&self, page: u32, place: [f32; 2]) -> [f32; 4] {
-        let from_centre = place.map(|at| (at - 0.5).max(0.0));
-        let corner = from_centre.map(f32::floor);
-        let [fx, fy] = [0, 1].map(|axis| from_centre[axis] - corner[axis]);
-        let [x, y] = corner.map(to_u32);
-        let [right, below] = [x, y].map(|at| at.saturating_add(1));
-        let texel = |x, y| self.texel(self.offset(page, x, y));
-        let mix = |a: [f32; 4], b: [f32; 4], t: f32| -> [f32; 4] {
-            std::array::from_fn(|i| a[i] + t * (b[i] - a[i]))
-        };
-        let upper = mix(texel(x, y), texel(right, y), fx);
-        let lower = mix(texel(x, below), texel(right, below), fx);
-        mix(upper, lower, fy)
-    }
-
-    fn texel(&self, at: usize) -> [f32; 4] {
-        let found = self.bytes.get(at..).and_then(<[u8]>::first_chunk);
-        let &[r, g, b, a] = found.unwrap_or(&[0; TEXEL_BYTES]);
-        let [r, g, b] = [r, g, b].map(|code| self.decode[usize::from(code)]);
-        [r, g, b, f32::from(a) / 255.0]
+    /// A texel as it is stored; places beyond the far sides of a page are its last texels. Nothing for a
+    /// page that is not there.
+    pub(crate) fn texel(&self, page: u32, x: u32, y: u32) -> [u8; TEXEL_BYTES] {
+        let from = self.offset(page, x, y);
+        let found = self.bytes.get(from..).and_then(<[u8]>::first_chunk);
+        found.copied().unwrap_or_default()
     }
 }
 
@@ -218,32 +196,6 @@ mod tests {
             let reds = pages.bytes().chunks_exact(4).map(|texel| texel[0]);
             assert!(reds.eq(shown.into_iter().flatten()), "{wraps:?}");
         }
-    }
-
-    #[test]
-    fn a_lookup_is_bilinear_in_linear_light() {
-        let texels = [0, 0, 0, 255, 255, 188, 0, 255];
-        let (pages, places) = TexelPages::filled(&[level([2, 1], &texels, [false; 2])]);
-        let [left, top] = places[0].corner.map(|side| side as f32);
-        for (x, weight) in [
-            (0.0, 0.0),
-            (0.5, 0.0),
-            (0.75, 0.25),
-            (1.0, 0.5),
-            (1.5, 1.0),
-            (2.0, 1.0),
-        ] {
-            for y in [0.0, 0.5, 1.0] {
-                let got = pages.bilinear(0, [left + x, top + y]);
-                let expected = [weight, weight * srgb::decode(188.0 / 255.0), 0.0, 1.0];
-                let near = got.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6);
-                assert!(near, "{x} {y}: {got:?}, not {expected:?}");
-            }
-        }
-        for place in [[-1e9, f32::NAN], [f32::INFINITY, 1e30]] {
-            assert!(pages.bilinear(0, place)[1] != 1.0, "no panic");
-        }
-        assert_eq!(pages.bilinear(1, [0.5; 2]), [0.0; 4]);
     }
 
     #[test]

@@ -262,7 +262,7 @@ fn an_outline_leaves_curves_alone() {
             ..PackOptions::default()
         };
         let [outlined, plain] = [&file, &plain].map(|file| pack(file, &options));
-        let [outlined, plain] = [&outlined, &plain].map(|packed| Sampler::new(packed));
+        let [outlined, plain] = [&outlined, &plain].map(Sampler::new);
         for (u, v) in raster() {
             let [got, expected] =
                 [outlined, plain].map(|sampler| sampler.sample([u, v], [0.05, 0.0, 0.0, 0.05]));

@@ -127,7 +127,7 @@ fn a_footprint_is_the_mean_of_points() {
     for halvings in [0, 2, 4] {
         let [points, footprints] =
             [FilterMode::Point, FilterMode::Footprint].map(|f| packed(&file, f, halvings));
-        let [points, footprints] = [&points, &footprints].map(|packed| Sampler::new(packed));
+        let [points, footprints] = [&points, &footprints].map(Sampler::new);
         for form in FORMS {
             let mut r = Random(5);
             let mut off = 0;
@@ -200,7 +200,7 @@ fn places_fill_the_footprint_evenly() {
 fn without_a_footprint_curves_show_what_points_do() {
     let file = board();
     let both = [FilterMode::Point, FilterMode::Footprint].map(|f| packed(&file, f, 2));
-    let [points, footprints] = both.each_ref().map(|packed| Sampler::new(packed));
+    let [points, footprints] = both.each_ref().map(Sampler::new);
     let mut r = Random(3);
     for _ in 0..20_000 {
         let uv = [r.unit(), r.unit()];

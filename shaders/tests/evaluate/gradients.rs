@@ -269,7 +269,7 @@ fn a_footprint_sees_a_gradient_at_the_mean_of_its_samples() {
         };
         pack(&file, &options)
     });
-    let [points, footprints] = both.each_ref().map(|packed| Sampler::new(packed));
+    let [points, footprints] = both.each_ref().map(Sampler::new);
     let mut partial = 0;
     for i in 0..400_u16 {
         let uv = [i % 20, i / 20].map(|k| f32::from(k) / 20.0 + 0.021);

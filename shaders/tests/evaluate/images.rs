@@ -347,7 +347,7 @@ fn a_footprint_sees_the_share_of_a_patch_that_it_covers() {
             };
             pack(&file, &options)
         });
-        let [points, footprints] = both.each_ref().map(|packed| Sampler::new(packed));
+        let [points, footprints] = both.each_ref().map(Sampler::new);
         let mut shares = Vec::new();
         for i in 0..400 {
             let turn = 0.1 * i as f32;

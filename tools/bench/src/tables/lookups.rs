@@ -107,7 +107,7 @@ pub(crate) fn cpu_tables(
     for subject in subjects {
         let raster = CpuRaster::new(&subject.raster);
         let packed = FILTERS.map(|(_, filter)| subject.packed(filter));
-        let samplers = packed.each_ref().map(|packed| Sampler::new(packed));
+        let samplers = packed.each_ref().map(Sampler::new);
         for set in subject.query_sets(effort.cpu_lookups) {
             let queries = set.queries();
             let baseline = || spread(&queries, threads, |query| raster.sample(query));
