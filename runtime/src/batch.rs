@@ -2,9 +2,12 @@
 
 use vtex_format::{SHADER_ABI, SpecKey, VtexFile};
 use vtex_shaders::{BatchQuery, BindingSlot, batch_dispatch};
-use wgpu::{Buffer, BufferUsages, ComputePipeline, Device, Queue, ShaderSource};
+use wgpu::{
+    BindGroupEntry, Buffer, BufferUsages, ComputePipeline, Device, Queue, ShaderSource,
+    ShaderStages,
+};
 
-use crate::device::{checked, compiled, empty_buffer, filled_buffer, read_back};
+use crate::device::{Uploaded, checked, compiled, empty_buffer, filled_buffer, read_back};
 use crate::{LoadOptions, RuntimeError};
 
 /// Whose shader is compiled. The key is the truth: text made from it is what a file means.
@@ -43,7 +46,7 @@ pub struct BatchSampler {
     device: Device,
     queue: Queue,
     pipeline: ComputePipeline,
-    words: Buffer,
+    texture: Uploaded,
     notices: Vec<String>,
 }
 
@@ -77,12 +80,11 @@ impl BatchSampler {
         options: &LoadOptions,
         trust: Trust,
     ) -> Result<Self, RuntimeError> {
-        let words = vtex_shaders::pack(file, &options.pack);
+        let packed = vtex_shaders::pack(file, &options.pack);
         // The upload has error scopes of its own: a texture too large for the device is the
         // caller's affair, while a kernel that does not compile is ours or the driver's.
-        let words = checked(device, "texture", || {
-            let bytes = bytemuck::cast_slice(&words);
-            filled_buffer(device, queue, "vtex texture", bytes, BufferUsages::STORAGE)
+        let texture = checked(device, "texture", || {
+            Uploaded::new(device, queue, &packed.words, &packed.texels)
         })
         .await?;
         let key = vtex_shaders::spec_key(file, &options.pack);
@@ -102,7 +104,7 @@ impl BatchSampler {
             device: device.clone(),
             queue: queue.clone(),
             pipeline,
-            words,
+            texture,
             notices,
         })
     }
@@ -153,13 +155,12 @@ impl BatchSampler {
     }
 
     fn bind(&self, input: &Buffer, output: &Buffer) -> wgpu::BindGroup {
-        let entries: Vec<wgpu::BindGroupEntry<'_>> = (0..)
-            .zip([&self.words, input, output])
-            .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                binding,
-                resource: buffer.as_entire_binding(),
-            })
-            .collect();
+        let [words, texels, sampler] = self.texture.entries(0);
+        let [input, output] = [(3, input), (4, output)].map(|(binding, buffer)| BindGroupEntry {
+            binding,
+            resource: buffer.as_entire_binding(),
+        });
+        let entries = [words, texels, sampler, input, output];
         self.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("vtex batch"),
             layout: &self.pipeline.get_bind_group_layout(0),
@@ -264,7 +265,7 @@ async fn stored_kernel(
     None
 }
 
-/// Compiles a kernel of the batch interface: group 0 with words, queries, colours.
+/// Compiles a kernel of the batch interface: group 0 with words, texels, sampler, queries, colours.
 fn pipeline(device: &Device, source: ShaderSource<'_>) -> ComputePipeline {
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("vtex batch"),
@@ -274,7 +275,7 @@ fn pipeline(device: &Device, source: ShaderSource<'_>) -> ComputePipeline {
     // read, and a kernel from a file may read less than we bind.
     let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
         binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
+        visibility: ShaderStages::COMPUTE,
         ty: wgpu::BindingType::Buffer {
             ty: wgpu::BufferBindingType::Storage { read_only },
             has_dynamic_offset: false,
@@ -282,9 +283,10 @@ fn pipeline(device: &Device, source: ShaderSource<'_>) -> ComputePipeline {
         },
         count: None,
     };
+    let [words, texels, sampler] = Uploaded::layout_entries(0, ShaderStages::COMPUTE);
     let group = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("vtex batch"),
-        entries: &[entry(0, true), entry(1, true), entry(2, false)],
+        entries: &[words, texels, sampler, entry(3, true), entry(4, false)],
     });
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("vtex batch"),

@@ -1,11 +1,11 @@
-//! A `.vtex` file as a buffer on the GPU, for use in any shader.
+//! A `.vtex` file on the GPU, for use in any shader.
 
 use vtex_format::{SpecKey, VtexFile};
 use vtex_shaders::PackOptions;
-use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferUsages, Device, Queue};
+use wgpu::{BindGroup, BindGroupLayout, Buffer, Device, Queue, Sampler, ShaderStages, TextureView};
 
 use crate::RuntimeError;
-use crate::device::{checked, filled_buffer};
+use crate::device::{Uploaded, checked};
 
 /// What a caller may decide at load; the file's own settings hold otherwise.
 #[derive(Clone, Debug, Default)]
@@ -14,7 +14,8 @@ pub struct LoadOptions {
     pub pack: PackOptions,
 }
 
-/// One vector texture on the GPU: a single read-only storage buffer.
+/// One vector texture on the GPU: a read-only storage buffer, a texture with the texels of its images,
+/// and their sampler.
 ///
 /// Put the fragment in front of your own WGSL, bind the texture, call `vtex_sample`:
 ///
@@ -36,7 +37,7 @@ pub struct LoadOptions {
 #[derive(Debug)]
 pub struct GpuVtex {
     key: SpecKey,
-    buffer: Buffer,
+    uploaded: Uploaded,
     layout: BindGroupLayout,
     group: BindGroup,
 }
@@ -45,8 +46,8 @@ impl GpuVtex {
     /// Packs and uploads `file`.
     ///
     /// # Errors
-    /// [`RuntimeError::Limit`] when the packed texture is larger than one storage binding of the
-    /// device (128 MiB on core WebGPU) or does not fit its memory.
+    /// [`RuntimeError::Limit`] when the packed words are larger than one storage binding of the
+    /// device (128 MiB on core WebGPU), or words or texels do not fit its memory.
     #[cfg(all(feature = "blocking", not(target_arch = "wasm32")))]
     pub fn upload(
         device: &Device,
@@ -61,33 +62,28 @@ impl GpuVtex {
     /// As `GpuVtex::upload`, for callers that must not block.
     ///
     /// # Errors
-    /// [`RuntimeError::Limit`] when the packed texture is larger than one storage binding of the
-    /// device (128 MiB on core WebGPU) or does not fit its memory.
+    /// [`RuntimeError::Limit`] when the packed words are larger than one storage binding of the
+    /// device (128 MiB on core WebGPU), or words or texels do not fit its memory.
     pub async fn upload_async(
         device: &Device,
         queue: &Queue,
         file: &VtexFile,
         options: &LoadOptions,
     ) -> Result<Self, RuntimeError> {
-        let words = vtex_shaders::pack(file, &options.pack);
+        let packed = vtex_shaders::pack(file, &options.pack);
         // Not `file.spec`: options such as the filter mode need other code.
         let key = vtex_shaders::kernel_key(&vtex_shaders::spec_key(file, &options.pack));
         checked(device, "texture", || {
-            let bytes = bytemuck::cast_slice(&words);
-            let storage = BufferUsages::STORAGE;
-            let buffer = filled_buffer(device, queue, "vtex texture", bytes, storage)?;
+            let uploaded = Uploaded::new(device, queue, &packed.words, &packed.texels)?;
             let layout = texture_layout(device);
             let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("vtex texture"),
                 layout: &layout,
-                entries: &[wgpu::BindGroupEntry {
-                    binding: 0,
-                    resource: buffer.as_entire_binding(),
-                }],
+                entries: &uploaded.entries(0),
             });
             Ok(Self {
                 key,
-                buffer,
+                uploaded,
                 layout,
                 group,
             })
@@ -95,21 +91,22 @@ impl GpuVtex {
         .await
     }
 
-    /// WGSL that declares the texture at `group` and `binding` and the function
+    /// WGSL that declares the texture in `group`, at `binding` and the two bindings behind it, and the
+    /// function
     /// `fn vtex_sample(uv: vec2f, footprint: vec4f) -> vec4f`: linear light, premultiplied.
     ///
     /// `footprint` holds two axes of the region to average, full extents in uv: in a fragment
     /// shader `vec4f(dpdx(uv), dpdy(uv))`, zero for a point. Every name it declares starts with
     /// `vtex_`, `Vtex` or `VTEX_`. Textures of the same [`GpuVtex::key`] share one text.
     ///
-    /// [`GpuVtex::bind_group`] binds the texture at binding 0; with another `binding` bind
-    /// [`GpuVtex::buffer`] in a group of your own.
+    /// [`GpuVtex::bind_group`] binds the texture from binding 0 on; with another `binding` bind
+    /// [`GpuVtex::buffer`], [`GpuVtex::texels`] and [`GpuVtex::sampler`] in a group of your own.
     pub fn wgsl_fragment(&self, group: u32, binding: u32) -> String {
         vtex_shaders::fragment(&self.key, vtex_shaders::BindingSlot { group, binding })
     }
 
-    /// Layout of [`GpuVtex::bind_group`]: one read-only storage buffer at binding 0, visible to
-    /// fragment and compute shaders.
+    /// Layout of [`GpuVtex::bind_group`], visible to fragment and compute shaders: a read-only storage
+    /// buffer at binding 0, a filterable 2D array texture at 1, and a filtering sampler at 2.
     pub fn bind_group_layout(&self) -> &BindGroupLayout {
         &self.layout
     }
@@ -121,7 +118,17 @@ impl GpuVtex {
 
     /// The texture's words.
     pub fn buffer(&self) -> &Buffer {
-        &self.buffer
+        &self.uploaded.words
+    }
+
+    /// The texels of its images, as a 2D array.
+    pub fn texels(&self) -> &TextureView {
+        &self.uploaded.texels
+    }
+
+    /// The sampler of [`GpuVtex::texels`].
+    pub fn sampler(&self) -> &Sampler {
+        &self.uploaded.sampler
     }
 
     /// Decides the text of [`GpuVtex::wgsl_fragment`]: cache pipelines by it. It is the
@@ -134,16 +141,6 @@ impl GpuVtex {
 fn texture_layout(device: &Device) -> BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("vtex texture"),
-        entries: &[wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only: true },
-                has_dynamic_offset: false,
-                // wgpu compares at each draw instead: the shader is the caller's.
-                min_binding_size: None,
-            },
-            count: None,
-        }],
+        entries: &Uploaded::layout_entries(0, ShaderStages::FRAGMENT | ShaderStages::COMPUTE),
     })
 }

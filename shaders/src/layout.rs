@@ -1,4 +1,5 @@
-//! The packed words that evaluators read: one `array<vec4u>` holds a whole texture.
+//! The packed words that evaluators read: one `array<vec4u>` holds all of a texture but the texels of its
+//! images.
 //!
 //! Several textures can lie in one array; every offset is relative to the texture's first word,
 //! so that a packed texture can be moved. All floats are f32 bits.
@@ -73,7 +74,8 @@ mod header = "HEADER" {
     TILES = 31;
     /// First word of the image records, [`image::WORDS`](super::image::WORDS) each.
     IMAGES = 32;
-    /// Two integers: texels of image 0's level 0; then its number of levels.
+    /// Of image 0: its [`image::SIZE`](super::image::SIZE), then its
+    /// [`image::LAST_LEVEL`](super::image::LAST_LEVEL).
     MIP_SIZE = 33;
     /// Words of the header; the rest are zero.
     WORDS = 36;
@@ -326,23 +328,28 @@ mod gradient = "GRADIENT" {
     SEARCH_STEPS = (vtex_format::MAX_GRADIENT_STOPS / 4).ilog2();
 }
 
-/// Words of an image record, by index, and of its texels: four halves, linear light,
-/// premultiplied.
+/// Words of an image record, by index, and how its texels are looked up. They lie in the pages of
+/// [`TexelPages`](crate::TexelPages).
 mod image = "IMAGE" {
     /// Words of a record.
     WORDS = 24;
     /// Four floats: left, top, right, bottom in uv.
     RECT_UV = 0;
-    /// Two integers: texels of level 0.
+    /// Two floats: texels of the first level that is there.
     SIZE = 4;
-    /// Number of levels, at most [`vtex_format::MAX_MIPS`].
-    LEVEL_COUNT = 6;
-    /// First word of each level.
+    /// The last level, at most [`vtex_format::MAX_MIPS`] - 1.
+    LAST_LEVEL = 6;
+    /// For each level where its first texel lies: bits of x, of y and of the page. The texels around
+    /// a level belong to it too.
     LEVELS = 8;
-    /// Words of a texel.
-    TEXEL_WORDS = 2;
-    /// Texels of a trilinear lookup.
-    TAPS = 8;
+    /// Bits of x, and of y behind the shift.
+    X_MASK = 0x1fff;
+    /// Bits below y.
+    Y_SHIFT = 13;
+    /// Bits below the page.
+    PAGE_SHIFT = 26;
+    /// Bilinear lookups of a trilinear one.
+    TAPS = 2;
     /// Trilinear lookups of one lookup at most: a footprint up to so many times longer than wide
     /// is filtered as it is, a longer one as if it were wider.
     PLACES = 8;

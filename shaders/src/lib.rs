@@ -1,8 +1,8 @@
 //! The vtex evaluator: WGSL in `wgsl/`, its Rust twin in [`cpu`], and the linker that makes the
 //! specialised text from a [`vtex_format::SpecKey`].
 //!
-//! Both sides read the same packed words ([`pack`]), so a lookup on the CPU and on the GPU walks
-//! the same numbers. `docs/format.md` section 3 says what a lookup returns.
+//! Both sides read the same packed words and texels ([`pack`]), so a lookup on the CPU and on the GPU
+//! walks the same numbers. `docs/format.md` section 3 says what a lookup returns.
 //!
 //! ```
 //! use vtex_shaders::{BindingSlot, fragment};
@@ -20,6 +20,7 @@ pub mod cpu;
 pub mod layout;
 mod link;
 mod pack;
+mod packed;
 #[cfg(feature = "precompile")]
 mod precompile;
 pub mod record;
@@ -28,10 +29,12 @@ mod spec;
 mod specialize;
 pub mod srgb;
 mod subdivide;
+mod texels;
 
 pub use layout::{BatchQuery, FilterMode};
 pub use link::{LinkContext, LinkError, link};
-pub use pack::{PackOptions, pack};
+pub use pack::{PackOptions, pack, pack_set};
+pub use packed::{Packed, PackedSet};
 #[cfg(feature = "precompile")]
 pub use precompile::{PrecompileError, shader_blob, spirv};
 pub use spec::{kernel_key, spec_key};
@@ -39,6 +42,7 @@ pub use specialize::{
     BATCH_WORKGROUP, BindingSlot, batch_dispatch, batch_kernel, fragment, scene_context,
     scene_evaluator,
 };
+pub use texels::{MAX_PAGE_SIDE, TexelPages};
 
 /// Hash of a shader's text, by which a loader tells whether a file's text is its own.
 pub fn hash(text: &str) -> [u8; 32] {

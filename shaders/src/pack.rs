@@ -1,15 +1,16 @@
 //! A file as the words that evaluators read.
 
-use half::f16;
 use vtex_format::{
-    AddressMode, Features, Gradient, GradientShape, Image, MAX_MIPS, PaintRecord, SHADER_ABI,
-    SamplerSettings, SpecKey, VtexFile,
+    AddressMode, Features, Gradient, GradientShape, PaintRecord, SHADER_ABI, SamplerSettings,
+    SpecKey, VtexFile,
 };
 
 use crate::cpu::{color, to_f32, to_u32};
 use crate::layout::{FilterMode, OFFSET_END, gradient, header, image, paint};
+use crate::packed::{Packed, PackedSet};
 use crate::spec::spec_key;
 use crate::subdivide::subdivide;
+use crate::texels::{Level, Place, TexelPages, levels_of};
 
 /// Evaluators read four words at a time.
 const GROUP_WORDS: usize = 4;
@@ -43,12 +44,56 @@ impl PackOptions {
     }
 }
 
-/// The words of `file`, laid out as [`header`] says, with every offset relative to the first. Their
-/// number is a multiple of four, as is to be the index of the first in a larger buffer.
+/// A texture's words and texels.
 ///
-/// The words go with the text of [`spec_key`] of the same file and options. `file` is to be
-/// one that the format's validator finds nothing in; another gives a wrong picture, never a panic.
-pub fn pack(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
+/// They go with the text of [`spec_key`] of the same file and options. `file` is to be one that the
+/// format's validator finds nothing in; another gives a wrong picture, never a panic.
+pub fn pack(file: &VtexFile, options: &PackOptions) -> Packed {
+    let set = pack_set([(file, options)]);
+    Packed {
+        words: set.words,
+        texels: set.texels,
+    }
+}
+
+/// Textures that share their words and texels, each as [`pack`] has it. The text is that of all their
+/// features.
+pub fn pack_set<'a>(
+    textures: impl IntoIterator<Item = (&'a VtexFile, &'a PackOptions)>,
+) -> PackedSet {
+    let mut words = Vec::new();
+    let mut first_words = Vec::new();
+    let mut images = Vec::new();
+    let mut levels = Vec::new();
+    for (file, options) in textures {
+        first_words.push(word_index(words.len()));
+        let texture = texture_words(file, options);
+        images.extend(image_levels(
+            &mut levels,
+            words.len(),
+            &texture,
+            file,
+            options,
+        ));
+        // One texture alone is not copied.
+        match words.is_empty() {
+            true => words = texture,
+            false => words.extend(texture),
+        }
+    }
+    let (texels, places) = TexelPages::filled(&levels);
+    for image in images {
+        place_levels(&mut words, &image, &places);
+    }
+    PackedSet {
+        words,
+        first_words,
+        texels,
+    }
+}
+
+/// A texture's words, in which the images' texels have no place yet.
+fn texture_words(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
     let key = spec_key(file, options);
     let subdivision = subdivide(file, options.filter, options.halvings);
     let mut words = header_words(file, options, &key);
@@ -70,7 +115,7 @@ pub fn pack(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
         .map(|t| u32::from_le_bytes([t[0], t[1], t[2], t[3]]))
         .collect();
     section(&mut words, header::TILES, &tiles);
-    image_words(&mut words, &file.images);
+    image_words(&mut words, file);
     words.resize(words.len().next_multiple_of(GROUP_WORDS), 0);
     words
 }
@@ -212,60 +257,65 @@ fn gradient_words(words: &mut Vec<u32>, stored: &Gradient) {
     );
 }
 
-fn image_words(words: &mut Vec<u32>, images: &[Image]) {
-    words.resize(words.len().next_multiple_of(GROUP_WORDS), 0);
-    let records = words.len();
-    words[header::IMAGES as usize] = word_index(records);
-    if let Some(canvas) = images.first() {
-        let [width, height] = canvas.size;
-        let about = [width, height, word_index(canvas.mips.len())];
-        words[header::MIP_SIZE as usize..][..3].copy_from_slice(&about);
-    }
-    words.resize(records + images.len() * image::WORDS as usize, 0);
-    let halves = TexelHalves::new();
-    for (index, stored) in images.iter().enumerate() {
-        let record = records + index * image::WORDS as usize;
-        let put = |at: u32, values: &[u32], words: &mut Vec<u32>| {
-            words[record + at as usize..][..values.len()].copy_from_slice(values);
-        };
-        let levels = &stored.mips[..stored.mips.len().min(MAX_MIPS as usize)];
-        put(image::RECT_UV, &stored.rect_uv.map(f32::to_bits), words);
-        put(image::SIZE, &stored.size, words);
-        put(image::LEVEL_COUNT, &[word_index(levels.len())], words);
-        for (level, texels) in (image::LEVELS..).zip(levels) {
-            let first = word_index(words.len());
-            put(level, &[first], words);
-            words.extend(texels.chunks_exact(4).flat_map(|texel| halves.words(texel)));
-        }
+/// The records, in which the levels have no place yet.
+fn image_words(words: &mut Vec<u32>, file: &VtexFile) {
+    let records = file.images.iter().flat_map(|stored| {
+        let mut record = [0; image::WORDS as usize];
+        let rect = stored.rect_uv.map(f32::to_bits);
+        record[image::RECT_UV as usize..][..4].copy_from_slice(&rect);
+        let (left_out, levels) = levels_of(stored, [false; 2]);
+        let part = 0.5_f32.powi(left_out.cast_signed());
+        let size = stored.size.map(|side| (part * to_f32(side)).to_bits());
+        record[image::SIZE as usize..][..2].copy_from_slice(&size);
+        let last = levels.len().saturating_sub(1);
+        record[image::LAST_LEVEL as usize] = word_index(last);
+        record
+    });
+    let records: Vec<u32> = records.collect();
+    section(words, header::IMAGES, &records);
+    if let Some(about) = records.get(image::SIZE as usize..image::SIZE as usize + 3) {
+        words[header::MIP_SIZE as usize..][..3].copy_from_slice(about);
     }
 }
 
-/// Halves of the 256 values that a stored channel can have.
-struct TexelHalves {
-    color: [u32; 256],
-    alpha: [u32; 256],
+/// An image whose levels have no place yet.
+struct Unplaced {
+    /// Word of the place of its first level.
+    places: usize,
+    /// Its levels among all.
+    levels: std::ops::Range<usize>,
 }
 
-impl TexelHalves {
-    fn new() -> Self {
-        let half = |value: f32| u32::from(f16::from_f32(value).to_bits());
-        let mut halves = Self {
-            color: [0; 256],
-            alpha: [0; 256],
-        };
-        for (byte, (color, alpha)) in
-            (0..=u8::MAX).zip(halves.color.iter_mut().zip(&mut halves.alpha))
-        {
-            let value = f32::from(byte) / 255.0;
-            *color = half(color::decode([value; 3])[0]);
-            *alpha = half(value);
+/// Appends the levels of the images of a texture, whose words come to lie at `first`.
+fn image_levels<'a>(
+    levels: &mut Vec<Level<'a>>,
+    first: usize,
+    texture: &[u32],
+    file: &'a VtexFile,
+    options: &PackOptions,
+) -> Vec<Unplaced> {
+    let records = first + texture[header::IMAGES as usize] as usize;
+    let address = options.applied_to(&file.meta.sampler).address;
+    let repeats = address.map(|mode| mode == AddressMode::Repeat);
+    let has_canvas = spec_key(file, options).features & Features::MIPS != 0;
+    let images = file.images.iter().enumerate().map(|(index, stored)| {
+        let is_canvas = index == 0 && has_canvas;
+        let wraps = if is_canvas { repeats } else { [false; 2] };
+        let (_, own) = levels_of(stored, wraps);
+        let from = levels.len();
+        levels.extend(own);
+        Unplaced {
+            places: records + index * image::WORDS as usize + image::LEVELS as usize,
+            levels: from..levels.len(),
         }
-        halves
-    }
+    });
+    images.collect()
+}
 
-    fn words(&self, texel: &[u8]) -> [u32; 2] {
-        let color = |channel: usize| self.color[usize::from(texel[channel])];
-        let alpha = self.alpha[usize::from(texel[3])];
-        [color(0) | color(1) << 16, color(2) | alpha << 16]
+fn place_levels(words: &mut [u32], unplaced: &Unplaced, places: &[Place]) {
+    let words = words[unplaced.places..].iter_mut();
+    for (word, place) in words.zip(&places[unplaced.levels.clone()]) {
+        let [x, y] = place.corner;
+        *word = x | y << image::Y_SHIFT | place.page << image::PAGE_SHIFT;
     }
 }

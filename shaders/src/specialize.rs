@@ -11,28 +11,30 @@ pub const BATCH_WORKGROUP: u32 = 64;
 /// Workgroups a dispatch may have along an axis on every WebGPU device.
 const MAX_WORKGROUPS: u32 = 65_535;
 
-/// Where the words of the texture are bound.
+/// Where a texture is bound: its words, its texels and their sampler at successive bindings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BindingSlot {
     /// `@group`.
     pub group: u32,
-    /// `@binding`.
+    /// `@binding` of the words.
     pub binding: u32,
 }
 
-/// WGSL for other people's shaders: declares `vtex_words`, a read-only storage buffer
-/// `array<vec4u>` at `slot`, and `fn vtex_sample(uv: vec2f, footprint: vec4f) -> vec4f`.
+/// WGSL for other people's shaders: `fn vtex_sample(uv: vec2f, footprint: vec4f) -> vec4f`, and from
+/// `slot` on its three bindings: `vtex_words`, a read-only storage buffer `array<vec4u>`; `vtex_texels`,
+/// a `texture_2d_array<f32>` with the pages of [`TexelPages`](crate::TexelPages); and `vtex_sampler`,
+/// a sampler with linear filters that clamps to the edge.
 ///
-/// Every name in it starts with `vtex_`, `Vtex` or `VTEX_`. The buffer holds one packed texture
-/// of this key. Same key and slot, same text.
+/// Every name in it starts with `vtex_`, `Vtex` or `VTEX_`. The bindings hold one packed texture of
+/// this key. Same key and slot, same text.
 pub fn fragment(key: &SpecKey, slot: BindingSlot) -> String {
     linked("root/fragment", &context(key, slot))
 }
 
 /// WGSL of the standalone batch kernel, entry point `vtex_batch`.
 ///
-/// Group 0: binding 0 the words, binding 1 an array of [`crate::layout::BatchQuery`], binding 2
-/// the results, an array of `vec4f`. [`batch_dispatch`] gives the workgroup counts; queries
+/// Group 0: bindings 0 to 2 the texture as in [`fragment`], binding 3 an array of
+/// [`crate::layout::BatchQuery`], binding 4 the results, an array of `vec4f`. [`batch_dispatch`] gives the workgroup counts; queries
 /// beyond either array's end are passed over.
 pub fn batch_kernel(key: &SpecKey) -> String {
     linked("root/batch", &context(key, BindingSlot::default()))
@@ -48,7 +50,8 @@ pub fn batch_dispatch(query_count: u32) -> [u32; 3] {
 }
 
 /// WGSL with `fn vtex_sample_at(vt: u32, uv: vec2f, footprint: vec4f) -> vec4f` for several packed
-/// textures one after the other in `vtex_words` at `slot`; `vt` is a texture's first word.
+/// textures one after the other in `vtex_words`, whose texels share `vtex_texels`; bindings from `slot`
+/// on as in [`fragment`]. `vt` is a texture's first word.
 ///
 /// `features` is the union of the textures' [`SpecKey::features`].
 pub fn scene_evaluator(features: u32, slot: BindingSlot) -> String {
@@ -68,8 +71,11 @@ fn context(key: &SpecKey, BindingSlot { group, binding }: BindingSlot) -> LinkCo
         true => MAX_BLEND_DEPTH,
         false => SHALLOW_BLEND_DEPTH,
     };
+    let [texels, sampler] = [binding + 1, binding + 2];
     let text = format!(
-        "@group({group}) @binding({binding}) var<storage, read> vtex_words: array<vec4u>;\n\n\
+        "@group({group}) @binding({binding}) var<storage, read> vtex_words: array<vec4u>;\n\
+         @group({group}) @binding({texels}) var vtex_texels: texture_2d_array<f32>;\n\
+         @group({group}) @binding({sampler}) var vtex_sampler: sampler;\n\n\
          const VTEX_KEY_FEATURES: u32 = {features}u;\n\
          const VTEX_KEY_BLEND_DEPTH: u32 = {blend_depth}u;\n"
     );
@@ -156,6 +162,8 @@ mod tests {
             let text = fragment(&key, slot);
             assert_eq!(text, fragment(&key, slot));
             assert!(text.contains("@group(3) @binding(7) var<storage, read> vtex_words"));
+            assert!(text.contains("@group(3) @binding(8) var vtex_texels"));
+            assert!(text.contains("@group(3) @binding(9) var vtex_sampler"));
             assert!(batch_kernel(&key).contains("fn vtex_batch("));
             assert!(scene_evaluator(key.features, slot).contains("fn vtex_sample_at("));
         }

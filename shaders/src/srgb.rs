@@ -5,5 +5,5 @@ pub use crate::cpu::color::{decode_channel as decode, encode_channel as encode};
 
 /// Linear light of the 256 codes of an 8-bit channel.
 pub fn decode_table() -> [f32; 256] {
-    std::array::from_fn(|code| decode(code as f32 / 255.0))
+    *crate::cpu::color::DECODED
 }

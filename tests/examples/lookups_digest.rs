@@ -13,7 +13,7 @@ use std::path::Path;
 use anyhow::{Context as _, Result};
 use rayon::prelude::*;
 use vtex_format::{Limits, VtexFile};
-use vtex_shaders::{PackOptions, cpu, pack};
+use vtex_shaders::{PackOptions, Packed, cpu, pack};
 use vtex_tests::random::Random;
 
 /// Lookups that one task does; each block has random numbers of its own.
@@ -28,12 +28,12 @@ fn main() -> Result<()> {
     for path in arguments {
         let bytes = std::fs::read(&path).with_context(|| path.clone())?;
         let file = VtexFile::parse(&bytes, &Limits::default()).with_context(|| path.clone())?;
-        let words = pack(&file, &PackOptions::default());
+        let packed = pack(&file, &PackOptions::default());
         let name = Path::new(&path).file_name().unwrap_or_default();
         println!(
             "{}  words {}  {}",
-            digest(&words, count),
-            hash_words(&words),
+            digest(&packed, count),
+            hash_words(&packed.words),
             name.display()
         );
     }
@@ -41,8 +41,8 @@ fn main() -> Result<()> {
 }
 
 /// The hash of all bits of `count` lookups, in order.
-fn digest(words: &[u32], count: usize) -> String {
-    let sampler = cpu::Sampler::new(words);
+fn digest(packed: &Packed, count: usize) -> String {
+    let sampler = cpu::Sampler::new(packed);
     let blocks: Vec<String> = (0..count.div_ceil(BLOCK))
         .into_par_iter()
         .map(|block| {

@@ -3,7 +3,7 @@
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
-use vtex_shaders::{BatchQuery, batch_dispatch};
+use vtex_shaders::{BatchQuery, TexelPages, batch_dispatch};
 use wgpu::util::DeviceExt as _;
 
 /// What a test leaves out with `VTEX_GPU=off`.
@@ -96,6 +96,33 @@ impl Gpu {
             })
     }
 
+    fn texture(&self, pages: &TexelPages) -> wgpu::TextureView {
+        let [width, height] = pages.size();
+        let texture = self.device.create_texture_with_data(
+            &self.queue,
+            &wgpu::TextureDescriptor {
+                label: None,
+                size: wgpu::Extent3d {
+                    width,
+                    height,
+                    depth_or_array_layers: pages.count(),
+                },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: wgpu::TextureFormat::Rgba8UnormSrgb,
+                usage: wgpu::TextureUsages::TEXTURE_BINDING,
+                view_formats: &[],
+            },
+            wgpu::util::TextureDataOrder::LayerMajor,
+            pages.bytes(),
+        );
+        texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            ..Default::default()
+        })
+    }
+
     fn read(&self, buffer: &wgpu::Buffer) -> Vec<[f32; 4]> {
         buffer.map_async(wgpu::MapMode::Read, .., |mapped| {
             mapped.expect("readable results");
@@ -129,11 +156,11 @@ pub struct Answers {
 }
 
 impl Kernel<'_> {
-    /// Looks `queries` up in the texture `words`.
+    /// Looks `queries` up in one packed texture, or in several.
     ///
     /// # Panics
     /// When the device fails or there are more than 2^32 queries.
-    pub fn run(&self, words: &[u32], queries: &[BatchQuery]) -> Answers {
+    pub fn run(&self, words: &[u32], texels: &TexelPages, queries: &[BatchQuery]) -> Answers {
         use wgpu::BufferUsages as Usage;
         let gpu = self.gpu;
         let size = size_of::<[f32; 4]>() as u64 * queries.len() as u64;
@@ -149,13 +176,22 @@ impl Kernel<'_> {
         let staging = buffer(Usage::MAP_READ | Usage::COPY_DST);
         let words = gpu.buffer(bytemuck::cast_slice(words), Usage::STORAGE);
         let inputs = gpu.buffer(bytemuck::cast_slice(queries), Usage::STORAGE);
-        let bound = [&words, &inputs, &results];
+        let texels = gpu.texture(texels);
+        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            ..Default::default()
+        });
+        let bound = [
+            words.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&texels),
+            wgpu::BindingResource::Sampler(&sampler),
+            inputs.as_entire_binding(),
+            results.as_entire_binding(),
+        ];
         let entries: Vec<_> = (0..)
             .zip(bound)
-            .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                binding,
-                resource: buffer.as_entire_binding(),
-            })
+            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
             .collect();
         let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,

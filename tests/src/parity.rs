@@ -6,8 +6,8 @@ use std::io::Write as _;
 
 use rayon::prelude::*;
 use vtex_format::Features;
-use vtex_shaders::BatchQuery;
 use vtex_shaders::cpu::Sampler;
+use vtex_shaders::{BatchQuery, TexelPages};
 
 use crate::random::Random;
 
@@ -17,6 +17,9 @@ const ROUNDING: f32 = 5e-5;
 /// Roundings of a place, in uv: a difference no larger than what the twin itself answers there is one.
 /// Steep gradients, texels and edges make differences of any size of them.
 const PLACE_ROUNDINGS: [f32; 3] = [1.2e-7, 4.8e-7, 1.9e-6];
+/// A lookup that reads texels may differ by this much more: samplers have sRGB decoders and weights of
+/// their own, of 8 bits on cards. 1.7e-3 was met on lavapipe.
+const TEXELS: f32 = 2e-3;
 /// Share of lookups of a point that may fall on the other side of an edge: of 240,000 one did.
 const POINT_STRAYS: f64 = 2e-5;
 /// Share of lookups of a footprint of which samples may: of 2,000,000 nine did.
@@ -29,6 +32,8 @@ const STRAY_SAMPLES: f32 = 2.0;
 pub struct Subject<'a> {
     /// What the twin reads: the words of one texture.
     pub words: &'a [u32],
+    /// The pages that these words name.
+    pub texels: &'a TexelPages,
     /// Bits of [`Features`] of the texture's own key, which say how it is filtered.
     pub features: u32,
 }
@@ -36,7 +41,7 @@ pub struct Subject<'a> {
 impl Subject<'_> {
     /// What the twin answers.
     pub fn twin(&self, queries: &[BatchQuery]) -> Vec<[f32; 4]> {
-        let sampler = Sampler::new(self.words);
+        let sampler = Sampler::of(self.words, self.texels);
         let look = |query: &BatchQuery| sampler.sample(query.uv, query.footprint);
         queries.par_iter().map(look).collect()
     }
@@ -61,14 +66,23 @@ impl Subject<'_> {
             allowed: share * count as f64,
             ..Parity::default()
         };
-        let sampler = Sampler::new(self.words);
+        let sampler = Sampler::of(self.words, self.texels);
+        // Empty texels: what they make no difference to reads none.
+        let empty = TexelPages::default();
+        let without = Sampler::of(self.words, &empty);
         for (query, (twin, gpu)) in queries.iter().zip(twin.iter().zip(gpu)) {
             let difference = difference(twin, gpu);
             if difference <= ROUNDING {
                 parity.rounding = parity.rounding.max(difference);
                 continue;
             }
-            if difference <= ROUNDING + moved(&sampler, query, twin) {
+            let texels = without.sample(query.uv, query.footprint) != *twin;
+            if texels && difference <= ROUNDING + TEXELS {
+                parity.texels = parity.texels.max(difference);
+                continue;
+            }
+            let filtered = if texels { TEXELS } else { 0.0 };
+            if difference <= ROUNDING + filtered + moved(&sampler, query, twin) {
                 parity.moved += 1;
                 continue;
             }
@@ -124,6 +138,8 @@ pub struct Parity {
     pub lookups: usize,
     /// The largest difference of a channel by rounding alone.
     pub rounding: f32,
+    /// The largest difference of a channel where texels are read, by the sampler and by rounding.
+    pub texels: f32,
     /// Lookups that differ by no more than the twin does from itself where the place is rounded.
     pub moved: usize,
     /// Lookups that differ by more: some place that they read lies on another side of an edge.
@@ -154,6 +170,7 @@ impl Parity {
         Self {
             lookups: self.lookups + other.lookups,
             rounding: self.rounding.max(other.rounding),
+            texels: self.texels.max(other.texels),
             moved: self.moved + other.moved,
             strays: self.strays + other.strays,
             samples: self.samples.max(other.samples),
@@ -168,6 +185,7 @@ impl fmt::Display for Parity {
         let Self {
             lookups,
             rounding,
+            texels,
             moved,
             strays,
             samples,
@@ -175,7 +193,7 @@ impl fmt::Display for Parity {
         } = self;
         write!(
             f,
-            "{rounding:.1e} by rounding; of {lookups} lookups {moved}"
+            "{rounding:.1e} by rounding, {texels:.1e} with texels; of {lookups} lookups {moved}"
         )?;
         write!(f, " as at places rounded otherwise, {strays} otherwise")?;
         write!(f, ", by up to {samples:.1e} samples")

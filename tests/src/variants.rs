@@ -94,8 +94,8 @@ fn pairs(variant: &Variant) -> BTreeSet<[&str; 2]> {
 /// Never: its modules exist.
 pub fn scene_kernel(features: u32) -> String {
     let root = "//!use core/query\n//!use vtex/sample\n\
-        @group(0) @binding(1) var<storage, read> queries: array<VtexBatchQuery>;\n\
-        @group(0) @binding(2) var<storage, read_write> results: array<vec4f>;\n\
+        @group(0) @binding(3) var<storage, read> queries: array<VtexBatchQuery>;\n\
+        @group(0) @binding(4) var<storage, read_write> results: array<vec4f>;\n\
         @compute @workgroup_size(64)\n\
         fn vtex_batch(@builtin(global_invocation_id) id: vec3u) {\n    \
             if id.x < arrayLength(&queries) {\n        \

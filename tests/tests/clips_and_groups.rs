@@ -75,8 +75,8 @@ struct Tally {
 
 /// `axes` are those of the footprint, in cells.
 fn tally(drawing: &Drawing, file: &VtexFile, options: &PackOptions, axes: [f32; 4]) -> Tally {
-    let words = pack(file, options);
-    let sampler = Sampler::new(&words);
+    let packed = pack(file, options);
+    let sampler = Sampler::new(&packed);
     let mut r = Random::new(7);
     let columns = CELLS as f32;
     let footprint = [axes[0] / columns, axes[1], axes[2] / columns, axes[3]];
@@ -221,8 +221,8 @@ fn a_clips_edge_is_a_linear_average() {
             filter: FilterMode::Footprint,
             ..PackOptions::default()
         };
-        let words = pack(&file, &options);
-        let sampler = Sampler::new(&words);
+        let packed = pack(&file, &options);
+        let sampler = Sampler::new(&packed);
         for step in 0..=20 {
             let u = 0.35 + 0.015 * step as f32;
             let got = sampler.sample([u, 0.5], [width, 0.0, 0.0, width]);
@@ -268,8 +268,8 @@ fn a_groups_opacity_is_alpha() {
             paint: 1,
         };
         let file = half_plane(vec![ground, Node::Group(group)]).file();
-        let words = pack(&file, &PackOptions::default());
-        let sampler = Sampler::new(&words);
+        let packed = pack(&file, &PackOptions::default());
+        let sampler = Sampler::new(&packed);
         let [got, behind] = [0.25, 0.75].map(|u| sampler.sample([u, 0.5], [0.0; 4]));
         // 0.5 over 0.5, premultiplied and encoded, then straight and decoded.
         let channel = |front: f32, back: f32| {

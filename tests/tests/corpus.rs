@@ -111,8 +111,8 @@ fn look(svg: &[u8]) -> Result<(), String> {
         spp: SPP,
         region_uv: POINTS,
     };
-    let words = pack(&file, &canvas_options(FilterMode::Point));
-    let sampler = cpu::Sampler::new(&words);
+    let packed = pack(&file, &canvas_options(FilterMode::Point));
+    let sampler = cpu::Sampler::new(&packed);
     let ours = shot.shoot(|uv, _| sampler.sample(uv, [0.0; 4]));
     explain(&file, &differing(&truth.unwrap(), &ours))
 }

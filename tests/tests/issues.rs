@@ -59,8 +59,8 @@ fn psnr_at_1x(svg: &[u8], file: &VtexFile) -> f64 {
         windows: vtex_truth::comparison::WINDOWS,
         mask: false,
     };
-    let words = vtex_shaders::pack(file, &canvas_options(FilterMode::Point));
-    let shooter = Shooter::Cpu { words };
+    let packed = vtex_shaders::pack(file, &canvas_options(FilterMode::Point));
+    let shooter = Shooter::Cpu { packed };
     let report = Comparison::new(&reference, terms)
         .and_then(|comparison| comparison.measure(1.0, |shot| shooter.shoot(shot)))
         .expect("the reference can be drawn");

@@ -98,8 +98,10 @@ fn bindings_are_where_they_are_said_to_be() {
     bindings.sort_unstable();
     let expected = [
         (0, 0, "vtex_words"),
-        (0, 1, "vtex_queries"),
-        (0, 2, "vtex_results"),
+        (0, 1, "vtex_texels"),
+        (0, 2, "vtex_sampler"),
+        (0, 3, "vtex_queries"),
+        (0, 4, "vtex_results"),
     ];
     assert_eq!(bindings, expected);
 }

@@ -96,8 +96,8 @@ impl Subject {
     }
 
     fn twin(&self) -> Tally {
-        let words = pack(&self.file, &options().pack);
-        let sampler = cpu::Sampler::new(&words);
+        let packed = pack(&self.file, &options().pack);
+        let sampler = cpu::Sampler::new(&packed);
         let look = |&uv: &[f32; 2]| sampler.sample(uv, [0.0; 4]);
         self.tally(&self.places.par_iter().map(look).collect::<Vec<_>>())
     }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use vtex_baker::{BakeConfig, Resources, bake};
 use vtex_format::VtexFile;
 use vtex_runtime::FilterMode;
-use vtex_shaders::{PackOptions, cpu, pack};
+use vtex_shaders::{PackOptions, Packed, cpu, pack};
 use vtex_tests::random::Random;
 use vtex_truth::picture::{Picture, View};
 use vtex_truth::reference::{Edges, Reference};
@@ -42,7 +42,7 @@ impl Subject {
         Self { file, sums }
     }
 
-    fn words(&self, filter: FilterMode) -> Vec<u32> {
+    fn packed(&self, filter: FilterMode) -> Packed {
         let options = PackOptions {
             filter,
             ..PackOptions::default()
@@ -131,8 +131,8 @@ fn zooming_out_shows_no_step() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/svg/paper/peacock.svg");
     let subject = Subject::new(&std::fs::read(path).unwrap());
     for filter in [FilterMode::Point, FilterMode::Footprint] {
-        let words = subject.words(filter);
-        let sampler = cpu::Sampler::new(&words);
+        let packed = subject.packed(filter);
+        let sampler = cpu::Sampler::new(&packed);
         // A quarter of a texel to 16.
         let footprints = (0..=6 * STEPS).map(|k| 2.0_f32.powf(k as f32 / STEPS as f32 - 2.0));
         let errors: Vec<(f32, [f64; 2])> = footprints
@@ -160,8 +160,8 @@ const ISLAND: &[u8] = br##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 
 #[test]
 fn moving_by_part_of_a_pixel_keeps_the_mean() {
     let subject = Subject::new(ISLAND);
-    let words = subject.words(FilterMode::Footprint);
-    let sampler = cpu::Sampler::new(&words);
+    let packed = subject.packed(FilterMode::Footprint);
+    let sampler = cpu::Sampler::new(&packed);
     for texels in [0.4_f32, 0.75, 1.0, 1.7, 3.0, 6.5] {
         let side = texels / MIP0 as f32;
         let means: Vec<f64> = (0..8_u8)

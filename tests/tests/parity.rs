@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use vtex_baker::{BakeConfig, Resources, bake};
 use vtex_format::{DistanceOutline, Features, SpecKey, VtexFile};
 use vtex_shaders::{
-    BatchQuery, FilterMode, PackOptions, batch_kernel, pack, shader_blob, spec_key,
+    BatchQuery, FilterMode, PackOptions, batch_kernel, pack, pack_set, shader_blob, spec_key,
 };
 use vtex_tests::clips_and_groups::{Drawing, Wants};
 use vtex_tests::fixture::random_texture;
@@ -97,11 +97,12 @@ fn check_file(gpu: &Gpu, name: &str, file: &VtexFile, lookups: &Lookups) -> Pari
         let key = spec_key(file, &options);
         let text = batch_kernel(&key);
         let kernel = gpu.kernel(wgpu::ShaderSource::Wgsl(Cow::Owned(text)));
-        let words = pack(file, &options);
+        let packed = pack(file, &options);
         let queries = random_queries(u64::from(count), count, lookups.margin);
-        let answers = kernel.run(&words, &queries).colors;
+        let answers = kernel.run(&packed.words, &packed.texels, &queries).colors;
         let subject = Subject {
-            words: &words,
+            words: &packed.words,
+            texels: &packed.texels,
             features: key.features,
         };
         parities.add(
@@ -232,14 +233,16 @@ fn the_spirv_in_a_file_is_the_same_kernel() {
     let Some(gpu) = Gpu::open() else { return };
     let file = random_texture(77, Features::ALL & !Features::MASK);
     let key = SpecKey::for_file(&file);
-    let words = pack(&file, &PackOptions::default());
+    let packed = pack(&file, &PackOptions::default());
     let queries = random_queries(3, RANDOM_QUERIES, 0.5);
     let spirv = shader_blob(&key).unwrap().batch_spirv;
     let from_file = gpu
         .kernel(wgpu::ShaderSource::SpirV(Cow::Owned(spirv)))
-        .run(&words, &queries);
+        .run(&packed.words, &packed.texels, &queries);
     let text = wgpu::ShaderSource::Wgsl(Cow::Owned(batch_kernel(&key)));
-    let from_text = gpu.kernel(text).run(&words, &queries);
+    let from_text = gpu
+        .kernel(text)
+        .run(&packed.words, &packed.texels, &queries);
     let pairs = from_file.colors.iter().zip(&from_text.colors);
     let apart = pairs.filter(|(file, text)| file != text).count();
     assert_eq!(apart, 0, "of {RANDOM_QUERIES} lookups");
@@ -259,23 +262,23 @@ fn scenes_look_up_each_texture_as_if_it_were_alone() {
     parities.report("textures of a scene");
 }
 
-/// The smallest files, as many as one binding of core WebGPU takes together, with their words.
+/// The smallest files, as many as one binding of core WebGPU takes together.
 fn that_fit<'a>(
     files: &'a [(String, VtexFile)],
     options: &PackOptions,
-) -> (Vec<&'a (String, VtexFile)>, Vec<Vec<u32>>) {
-    let mut packed: Vec<_> = files
+) -> Vec<&'a (String, VtexFile)> {
+    let mut sized: Vec<_> = files
         .iter()
-        .map(|file| (file, pack(&file.1, options)))
+        .map(|file| (pack(&file.1, options).words.len(), file))
         .collect();
-    packed.sort_by_key(|(_, words)| words.len());
+    sized.sort_by_key(|&(words, _)| words);
     let mut words = 0;
-    packed.retain(|(_, own)| {
-        words += own.len();
+    sized.retain(|(own, _)| {
+        words += own;
         words <= (128 << 20) / 4
     });
-    assert!(packed.len() + 6 >= files.len(), "{} textures", packed.len());
-    packed.into_iter().unzip()
+    assert!(sized.len() + 6 >= files.len(), "{} textures", sized.len());
+    sized.into_iter().map(|(_, file)| file).collect()
 }
 
 fn check_scene(gpu: &Gpu, filter: FilterMode, files: &[(String, VtexFile)]) -> Parities {
@@ -283,36 +286,31 @@ fn check_scene(gpu: &Gpu, filter: FilterMode, files: &[(String, VtexFile)]) -> P
         filter,
         ..PackOptions::default()
     };
-    let (files, packed) = that_fit(files, &options);
+    let files = that_fit(files, &options);
     let union = files.iter().fold(0, |union, (_, file)| {
         union | spec_key(file, &options).features
     });
-    let mut bases = Vec::new();
-    let mut words = Vec::new();
-    for texture in &packed {
-        bases.push(u32::try_from(words.len()).expect("small textures"));
-        words.extend(texture);
-    }
+    let set = pack_set(files.iter().map(|(_, file)| (file, &options)));
     let mut queries = random_queries(9, RANDOM_QUERIES, 1.5);
-    for (query, base) in queries.iter_mut().zip(bases.iter().cycle()) {
+    for (query, base) in queries.iter_mut().zip(set.first_words.iter().cycle()) {
         query.padding[0] = f32::from_bits(*base);
     }
     let kernel = gpu.kernel(wgpu::ShaderSource::Wgsl(Cow::Owned(scene_kernel(union))));
-    let answers = kernel.run(&words, &queries).colors;
+    let answers = kernel.run(&set.words, &set.texels, &queries).colors;
     let mut parities = Parities::default();
-    for (i, texture) in packed.iter().enumerate() {
+    for (i, (name, file)) in files.iter().enumerate() {
         let mine = |list: &[BatchQuery]| -> Vec<BatchQuery> {
-            list.iter().skip(i).step_by(packed.len()).copied().collect()
+            list.iter().skip(i).step_by(files.len()).copied().collect()
         };
         let seen: Vec<_> = answers
             .iter()
             .skip(i)
-            .step_by(packed.len())
+            .step_by(files.len())
             .copied()
             .collect();
-        let (name, file) = files[i];
         let subject = Subject {
-            words: texture,
+            words: set.of(i),
+            texels: &set.texels,
             features: spec_key(file, &options).features,
         };
         parities.add(

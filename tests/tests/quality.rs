@@ -41,8 +41,8 @@ fn psnr_db(reference: &Reference, file: &VtexFile, spp: u32, zoom: f64) -> f64 {
         filter: FilterMode::Point,
         ..PackOptions::default()
     };
-    let words = pack(file, &options);
-    let sampler = cpu::Sampler::new(&words);
+    let packed = pack(file, &options);
+    let sampler = cpu::Sampler::new(&packed);
     let shoot =
         |shot: vtex_truth::picture::Shot| Ok(shot.shoot(|uv, axes| sampler.sample(uv, axes)));
     let report = comparison.measure(zoom, shoot).unwrap();

@@ -6,7 +6,9 @@ use std::io::Write as _;
 
 use rayon::prelude::*;
 use vtex_format::{Features, SpecKey, VtexFile};
-use vtex_shaders::{BatchQuery, FilterMode, PackOptions, kernel_key, pack, spec_key};
+use vtex_shaders::{
+    BatchQuery, FilterMode, PackOptions, Packed, kernel_key, pack, pack_set, spec_key,
+};
 use vtex_tests::fixture::random_texture;
 use vtex_tests::gpu::Gpu;
 use vtex_tests::parity::{Parities, Subject, random_queries};
@@ -17,14 +19,16 @@ const LOOKUPS: u32 = 2000;
 /// The loader's choices, of which no file says anything.
 const FILTERS: u32 = Features::FOOTPRINT | Features::PAPER;
 
-/// A texture, packed for one filter mode.
-struct Packed {
-    words: Vec<u32>,
+/// A texture for one filter mode.
+struct Texture {
+    file: VtexFile,
+    options: PackOptions,
+    packed: Packed,
     /// Of its key.
     features: u32,
 }
 
-impl Packed {
+impl Texture {
     fn new(file: &VtexFile, filter: FilterMode) -> Self {
         let options = PackOptions {
             filter,
@@ -33,14 +37,17 @@ impl Packed {
             ..PackOptions::default()
         };
         Self {
-            words: pack(file, &options),
+            file: file.clone(),
+            options,
+            packed: pack(file, &options),
             features: spec_key(file, &options).features,
         }
     }
 
     fn subject(&self) -> Subject<'_> {
         Subject {
-            words: &self.words,
+            words: &self.packed.words,
+            texels: &self.packed.texels,
             features: self.features,
         }
     }
@@ -68,9 +75,9 @@ fn texture(index: usize, features: u32) -> VtexFile {
     }
     let queries = random_queries(index as u64, 100, 0.5);
     let is_good = |file: &VtexFile| {
-        let packed = Packed::new(file, FilterMode::Point);
+        let texture = Texture::new(file, FilterMode::Point);
         let key = kernel_key(&spec_key(file, &PackOptions::default()));
-        let colors = packed.subject().twin(&queries);
+        let colors = texture.subject().twin(&queries);
         let shows = colors.iter().any(|color| *color != colors[0]);
         shows && key.features == features & !FILTERS
     };
@@ -82,7 +89,7 @@ fn texture(index: usize, features: u32) -> VtexFile {
 }
 
 /// A texture with less than a text has code for: what another text has, too.
-fn poorer(index: usize, mut features: u32, filter: FilterMode) -> Packed {
+fn poorer(index: usize, mut features: u32, filter: FilterMode) -> Texture {
     features &= !(FILTERS | Features::MASK);
     // Tests need curve records, and only groups blend and are deep.
     if features & Features::CURVES == 0 {
@@ -91,29 +98,30 @@ fn poorer(index: usize, mut features: u32, filter: FilterMode) -> Packed {
     if features & Features::GROUPS == 0 {
         features &= !(Features::BLENDS | Features::DEEP_GROUPS);
     }
-    Packed::new(&random_texture(!index as u64, features), filter)
+    Texture::new(&random_texture(!index as u64, features), filter)
 }
 
 /// All textures in one buffer, one after the other, as those of a scene are.
-fn check(gpu: &Gpu, index: usize, features: u32, textures: &[Packed]) -> Parities {
-    let mut words = Vec::new();
+fn check(gpu: &Gpu, index: usize, features: u32, textures: &[Texture]) -> Parities {
+    let set = pack_set(textures.iter().map(|one| (&one.file, &one.options)));
     let mut queries: Vec<BatchQuery> = Vec::new();
-    for texture in textures {
+    for (texture, &base) in textures.iter().zip(&set.first_words) {
         let key = SpecKey {
             features: texture.features,
         };
         let code = kernel_key(&key).features;
         assert_eq!(code & !features, 0, "{features:#x} has code for all of it");
-        let base = u32::try_from(words.len()).expect("small textures");
         let mut own = random_queries(index as u64, LOOKUPS, 0.5);
         for query in &mut own {
             query.padding[0] = f32::from_bits(base);
         }
         queries.extend(own);
-        words.extend(&texture.words);
     }
     let text = wgpu::ShaderSource::Wgsl(Cow::Owned(scene_kernel(features)));
-    let answers = gpu.kernel(text).run(&words, &queries).colors;
+    let answers = gpu
+        .kernel(text)
+        .run(&set.words, &set.texels, &queries)
+        .colors;
     let mut parities = Parities::default();
     let each = queries.chunks(LOOKUPS as usize);
     for (texture, (queries, answers)) in textures
@@ -150,8 +158,8 @@ fn texts_agree_with_the_twin() {
         let features = variants[index].features;
         let file = texture(index, features);
         let modes = modes(features);
-        let packed = modes.iter().map(|&mode| Packed::new(&file, mode));
-        let mut textures: Vec<Packed> = packed.collect();
+        let packed = modes.iter().map(|&mode| Texture::new(&file, mode));
+        let mut textures: Vec<Texture> = packed.collect();
         let other = variants[variants.len() - 1 - index].features;
         textures.push(poorer(index, features & other, modes[modes.len() - 1]));
         check(gpu, index, features, &textures)

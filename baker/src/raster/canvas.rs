@@ -135,8 +135,8 @@ pub(crate) fn picture(file: &VtexFile, size: [u32; 2]) -> LinearImage {
         smoothing: None,
         halvings: Some(effort.halvings),
     };
-    let words = pack(file, &options);
-    let texels = Texels::new(Sampler::new(&words), size, effort.lookups);
+    let packed = pack(file, &options);
+    let texels = Texels::new(Sampler::new(&packed), size, effort.lookups);
     LinearImage {
         size,
         texels: (0..size[1])
@@ -203,8 +203,8 @@ mod tests {
             <path d="M10 20H90V45H10z" fill="#a03"/><circle cx="50" cy="60" r="31" fill="#28b"/>
             <path d="M5 95C40 5 60 99 95 9L70 90z" fill="#fd0" fill-opacity=".6"/></svg>"##;
         let file = bake(svg, &BakeConfig::default(), &Resources::default()).unwrap();
-        let words = pack(&file, &PackOptions::default());
-        let sampler = Sampler::new(&words);
+        let packed = pack(&file, &PackOptions::default());
+        let sampler = Sampler::new(&packed);
         let mut random = Random(7);
         let mut uniform = 0;
         for _ in 0..20_000 {

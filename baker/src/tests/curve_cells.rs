@@ -55,8 +55,8 @@ fn compare(drawing: &Drawing, file: &VtexFile, config: &BakeConfig, points: u32)
     assert_eq!(lattice.grid, file.meta.grid);
     let verdicts = vec![Verdict::forced(Coverage::Curves); drawing.items.len()];
     let placed = place(drawing, &lattice, &verdicts);
-    let words = pack(file, &PackOptions::default());
-    let sampler = cpu::Sampler::new(&words);
+    let packed = pack(file, &PackOptions::default());
+    let sampler = cpu::Sampler::new(&packed);
     let mut random = Random(9);
     let (mut compared, mut wrong) = (0, 0);
     for _ in 0..points {

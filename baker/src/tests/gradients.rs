@@ -46,8 +46,8 @@ fn wrong_share(svg: &str) -> f64 {
     let file = baked(svg);
     assert_ne!(file.spec.features & Features::GRADIENTS, 0, "{svg}");
     assert_eq!(file.images.len(), 1, "no patches: {svg}");
-    let words = pack(&file, &PackOptions::default());
-    let sampler = cpu::Sampler::new(&words);
+    let packed = pack(&file, &PackOptions::default());
+    let sampler = cpu::Sampler::new(&packed);
     let theirs = resvg_picture(svg);
     let mut wrong = 0;
     for y in 0..SIDE {
@@ -285,9 +285,9 @@ fn a_mask_takes_the_alpha_of_gradients() {
         ..BakeConfig::default()
     };
     let file = bake(svg_of(&body).as_bytes(), &config, &Resources::default()).unwrap();
-    let words = pack(&file, &PackOptions::default());
+    let packed = pack(&file, &PackOptions::default());
     for u in [0.1, 0.35, 0.8] {
-        let seen = cpu::Sampler::new(&words).sample([u, 0.5], [0.0; 4]);
+        let seen = cpu::Sampler::new(&packed).sample([u, 0.5], [0.0; 4]);
         assert!(
             seen.iter().all(|alpha| (alpha - (1.0 - u)).abs() < 1e-5),
             "{u}: {seen:?}"
@@ -320,10 +320,10 @@ fn oracle_and_twin_agree() {
         let drawing = Drawing::ungrouped([10.0, 10.0], vec![item]);
         let config = BakeConfig::default();
         let file = crate::pipeline::assemble(drawing, None, &config, [0; 32], &|_| ()).unwrap();
-        let words = pack(&file, &PackOptions::default());
+        let packed = pack(&file, &PackOptions::default());
         for i in 0..900_u16 {
             let uv = [i % 30, i / 30].map(|i| (f64::from(i) + 0.37) / 30.0);
-            let seen = cpu::Sampler::new(&words).sample(uv.map(to_f32), [0.0; 4]);
+            let seen = cpu::Sampler::new(&packed).sample(uv.map(to_f32), [0.0; 4]);
             let [r, g, b, a] = crate::oracle::gradient::color_at(&gradient, uv).map(to_f32);
             let [r, g, b] = cpu::color::decode([r, g, b]).map(|c| c * a);
             let near = seen

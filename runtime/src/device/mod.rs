@@ -4,6 +4,7 @@
 mod buffer;
 mod reply;
 mod scope;
+mod texels;
 
 pub(crate) use buffer::{empty_buffer, filled_buffer, read_back};
 #[cfg(all(feature = "blocking", not(target_arch = "wasm32")))]
@@ -11,3 +12,4 @@ pub(crate) use reply::block_on;
 #[cfg(feature = "tracer")]
 pub(crate) use reply::submitted_work;
 pub(crate) use scope::{checked, compiled};
+pub(crate) use texels::Uploaded;

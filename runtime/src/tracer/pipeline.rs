@@ -1,10 +1,13 @@
 //! Shader, layouts and bind groups of the tracer.
 
 use vtex_shaders::{BindingSlot, LinkContext};
-use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferBindingType, ComputePipeline, Device};
+use wgpu::{
+    BindGroup, BindGroupEntry, BindGroupLayout, BindGroupLayoutEntry, Buffer, BufferBindingType,
+    ComputePipeline, Device, ShaderStages,
+};
 
 use crate::RuntimeError;
-use crate::device::compiled;
+use crate::device::{Uploaded, compiled};
 
 use super::upload::SceneBuffers;
 
@@ -18,7 +21,6 @@ const WRITE: BufferBindingType = BufferBindingType::Storage { read_only: false }
 const SCENE_GROUP: &[BufferBindingType] = &[UNIFORM, UNIFORM, READ, READ, READ, READ];
 const FILM_GROUP: &[BufferBindingType] = &[WRITE, WRITE];
 const QUERY_GROUP: &[BufferBindingType] = &[READ, WRITE];
-const TEXTURE_GROUP: &[BufferBindingType] = &[READ];
 
 const TEXTURE_SLOT: BindingSlot = BindingSlot {
     group: 2,
@@ -56,7 +58,8 @@ impl Pipelines {
         compiled(device, "path tracer", || {
             let scene_layout = layout(device, "vtex scene", SCENE_GROUP);
             let film_layout = layout(device, "vtex film", FILM_GROUP);
-            let texture_layout = layout(device, "vtex textures", TEXTURE_GROUP);
+            let entries = Uploaded::layout_entries(TEXTURE_SLOT.binding, ShaderStages::COMPUTE);
+            let texture_layout = layout_of(device, "vtex textures", &entries);
             let groups = [&scene_layout, &film_layout, &texture_layout];
             Ok(Self {
                 render: pipeline(device, &wgsl, "render", &groups),
@@ -102,18 +105,22 @@ impl Bindings {
         Self {
             scene: group(device, &pipelines.scene_layout, &scene.bindings(pass)),
             film: group(device, &pipelines.film_layout, &[film_sum, film_rays]),
-            textures: group(device, &pipelines.texture_layout, &[scene.textures()]),
+            textures: group_of(
+                device,
+                &pipelines.texture_layout,
+                &scene.textures().entries(TEXTURE_SLOT.binding),
+            ),
         }
     }
 }
 
 /// A layout of whole buffers numbered from 0, for the compute stage.
 fn layout(device: &Device, label: &str, bindings: &[BufferBindingType]) -> BindGroupLayout {
-    let entries: Vec<wgpu::BindGroupLayoutEntry> = (0..)
+    let entries: Vec<BindGroupLayoutEntry> = (0..)
         .zip(bindings)
-        .map(|(binding, &ty)| wgpu::BindGroupLayoutEntry {
+        .map(|(binding, &ty)| BindGroupLayoutEntry {
             binding,
-            visibility: wgpu::ShaderStages::COMPUTE,
+            visibility: ShaderStages::COMPUTE,
             ty: wgpu::BindingType::Buffer {
                 ty,
                 has_dynamic_offset: false,
@@ -123,25 +130,37 @@ fn layout(device: &Device, label: &str, bindings: &[BufferBindingType]) -> BindG
             count: None,
         })
         .collect();
+    layout_of(device, label, &entries)
+}
+
+fn layout_of(device: &Device, label: &str, entries: &[BindGroupLayoutEntry]) -> BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some(label),
-        entries: &entries,
+        entries,
     })
 }
 
 /// Binds whole buffers, numbered from 0.
 pub(super) fn group(device: &Device, layout: &BindGroupLayout, buffers: &[&Buffer]) -> BindGroup {
-    let entries: Vec<wgpu::BindGroupEntry<'_>> = (0..)
+    let entries: Vec<BindGroupEntry<'_>> = (0..)
         .zip(buffers)
-        .map(|(binding, buffer)| wgpu::BindGroupEntry {
+        .map(|(binding, buffer)| BindGroupEntry {
             binding,
             resource: buffer.as_entire_binding(),
         })
         .collect();
+    group_of(device, layout, &entries)
+}
+
+fn group_of(
+    device: &Device,
+    layout: &BindGroupLayout,
+    entries: &[BindGroupEntry<'_>],
+) -> BindGroup {
     device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("vtex tracer"),
         layout,
-        entries: &entries,
+        entries,
     })
 }
 

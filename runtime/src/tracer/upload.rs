@@ -11,7 +11,7 @@ use super::records::{
 use super::textures::PackedTextures;
 use super::{TraceOptions, bvh};
 use crate::RuntimeError;
-use crate::device::{checked, filled_buffer};
+use crate::device::{Uploaded, checked, filled_buffer};
 use crate::scene::{
     Camera, Instance, MAX_LIGHTS, MAX_TRIANGLES, Material, RectLight, Scene, Surface,
 };
@@ -30,7 +30,7 @@ pub(super) struct SceneBuffers {
     triangles: Buffer,
     attributes: Buffer,
     materials: Buffer,
-    textures: Buffer,
+    textures: Uploaded,
     texture_features: u32,
     source_triangles: Vec<u32>,
 }
@@ -69,7 +69,7 @@ impl SceneBuffers {
             .map(|&i| world.attributes[i as usize])
             .collect();
         let packed = PackedTextures::new(&scene.textures)?;
-        let materials = material_records(scene, &packed.first_words);
+        let materials = material_records(scene, &packed.set.first_words);
         let frame_record = frame_record(scene, size, options, &triangles)?;
         checked(device, "scene", || {
             let filled =
@@ -83,7 +83,7 @@ impl SceneBuffers {
                 triangles: storage("vtex triangles", bytemuck::cast_slice(&triangles))?,
                 attributes: storage("vtex attributes", bytemuck::cast_slice(&attributes))?,
                 materials: storage("vtex materials", bytemuck::cast_slice(&materials))?,
-                textures: storage("vtex textures", bytemuck::cast_slice(&packed.words))?,
+                textures: Uploaded::new(device, queue, &packed.set.words, &packed.set.texels)?,
                 texture_features: packed.features,
                 source_triangles: bvh.primitive_indices,
             })
@@ -103,7 +103,7 @@ impl SceneBuffers {
         ]
     }
 
-    pub(super) fn textures(&self) -> &Buffer {
+    pub(super) fn textures(&self) -> &Uploaded {
         &self.textures
     }
 

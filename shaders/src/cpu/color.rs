@@ -1,5 +1,11 @@
 //! Twin of `core/color.wgsl`: the sRGB transfer functions of IEC 61966-2-1.
 
+use std::sync::LazyLock;
+
+/// Linear light of the 256 codes of an 8-bit channel.
+pub(crate) static DECODED: LazyLock<[f32; 256]> =
+    LazyLock::new(|| std::array::from_fn(|code| decode_channel(code as f32 / 255.0)));
+
 /// Linear light of one sRGB-encoded channel; below zero counts as zero.
 pub fn decode_channel(encoded: f32) -> f32 {
     let c = encoded.max(0.0);

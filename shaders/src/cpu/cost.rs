@@ -12,8 +12,8 @@ const COMMAND_BYTES: u32 = 4 * cmd::WORDS;
 const TILE_BYTES: u32 = 16;
 /// The half of a paint that a lookup reads, linear or encoded.
 const PAINT_BYTES: u32 = 16;
-/// An image's rectangle, size and four texels of one level.
-const IMAGE_BYTES: u32 = 16 + 16 + 4 + 32;
+/// An image's rectangle, its size, the places of two levels, and four texels of one.
+const IMAGE_BYTES: u32 = 16 + 16 + 8 + 16;
 
 /// What one lookup reads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -24,7 +24,7 @@ pub struct LookupCost {
     pub segments: u32,
     /// MSDF tiles read.
     pub tiles: u32,
-    /// Bytes of the packed words; the header, always in a cache, is left out.
+    /// Bytes of the packed words and texels; the header, always in a cache, is left out.
     pub bytes: u32,
 }
 

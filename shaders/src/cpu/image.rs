@@ -1,18 +1,8 @@
-//! Twin of `vtex/image.wgsl`, and of `vtex/image_entry.wgsl`: trilinear lookups by hand. Texel centres lie at +0.5.
+//! Twin of `vtex/image.wgsl`, and of `vtex/image_entry.wgsl`; here with what the sampler does there.
 
-use super::math::{clamp, half_to_f32, to_f32, to_u32};
+use super::math::{clamp, to_f32, to_u32};
 use super::{Lookup, Sampler};
 use crate::layout::image;
-
-/// `index`, at most one beyond `count` texels, comes back in: where it went out, or at the other side.
-fn neighbour(index: f32, count: f32, wraps: bool) -> f32 {
-    let kept = clamp(index, 0.0, count - 1.0);
-    if wraps && kept != index {
-        count - 1.0 - kept
-    } else {
-        kept
-    }
-}
 
 /// A weight between two sides, of which the lesser is left out where it cannot be seen.
 pub(super) fn weight(weight: f32) -> f32 {
@@ -26,13 +16,7 @@ pub(super) fn weight(weight: f32) -> f32 {
     }
 }
 
-/// Four halves: linear light, premultiplied.
-fn texel(sampler: &Sampler<'_>, index: u32) -> [f32; 4] {
-    let [rg, ba] = sampler.words(index);
-    [rg, rg >> 16, ba, ba >> 16].map(half_to_f32)
-}
-
-/// How a footprint is looked up in an image: by trilinear lookups in one level, in a row along its
+/// How a footprint is looked up in an image: by trilinear lookups of one lod, in a row along its
 /// longer principal axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Region {
@@ -80,76 +64,84 @@ impl Region {
 /// One level of an image.
 #[derive(Clone, Copy, Debug)]
 struct Level {
-    /// First word of its texels.
-    first: u32,
-    size: [u32; 2],
-    wraps: [bool; 2],
+    /// [`image::LEVELS`].
+    word: u32,
+    /// Texels that the image's sides are from each other.
+    texels: [f32; 2],
 }
 
 impl Level {
-    /// `value` and what the four texels around `t` in \[0, 1\] add to it.
-    fn add(&self, sampler: &Sampler<'_>, value: [f32; 4], t: [f32; 2], share: f32) -> [f32; 4] {
-        // Near and far neighbour along each axis.
-        let mut texels = [[0; 2]; 2];
-        let mut weights = [[0.0; 2]; 2];
-        for axis in 0..2 {
-            let count = to_f32(self.size[axis]);
-            let x = t[axis] * count - 0.5;
-            let corner = x.floor();
-            let f = x - corner;
-            weights[axis] = [1.0 - f, f];
-            texels[axis] =
-                [corner, corner + 1.0].map(|x| to_u32(neighbour(x, count, self.wraps[axis])));
-        }
-        let mut value = value;
-        for tap in 0..4 {
-            let [near, far] = [tap & 1, tap >> 1];
-            let index = texels[1][far]
-                .wrapping_mul(self.size[0])
-                .wrapping_add(texels[0][near]);
-            let place = self
-                .first
-                .wrapping_add(index.wrapping_mul(image::TEXEL_WORDS));
-            let texel = texel(sampler, place);
-            let weight = weights[0][near] * weights[1][far] * share;
-            value = std::array::from_fn(|i| value[i] + weight * texel[i]);
-        }
-        value
+    /// At a place in \[0, 1\] over the image.
+    fn sample(&self, sampler: &Sampler<'_>, inside: [f32; 2]) -> [f32; 4] {
+        let corner = [self.word, self.word >> image::Y_SHIFT].map(|at| at & image::X_MASK);
+        let at = [0, 1].map(|axis| to_f32(corner[axis]) + inside[axis] * self.texels[axis]);
+        bilinear(sampler, self.word >> image::PAGE_SHIFT, at)
     }
 }
 
-/// `t` in \[0, 1\] over the image; `apart` is that of the region in the same measure. Level 0 is the
-/// finest; the last level is kept beyond the end.
+/// What a bilinear sample with sRGB decoding returns at a place in texels, whose centres lie at +0.5.
+fn bilinear(sampler: &Sampler<'_>, page: u32, place: [f32; 2]) -> [f32; 4] {
+    let from_centre = place.map(|at| (at - 0.5).max(0.0));
+    let corner = from_centre.map(f32::floor);
+    let [fx, fy] = [0, 1].map(|axis| from_centre[axis] - corner[axis]);
+    let [x, y] = corner.map(to_u32);
+    let [right, below] = [x, y].map(|at| at.saturating_add(1));
+    let texel = |x, y| {
+        let [r, g, b, a] = sampler.texels.texel(page, x, y);
+        let [r, g, b] = [r, g, b].map(|code| sampler.decode[usize::from(code)]);
+        [r, g, b, f32::from(a) / 255.0]
+    };
+    let mix = |a: [f32; 4], b: [f32; 4], t: f32| -> [f32; 4] {
+        std::array::from_fn(|i| a[i] + t * (b[i] - a[i]))
+    };
+    let upper = mix(texel(x, y), texel(right, y), fx);
+    let lower = mix(texel(x, below), texel(right, below), fx);
+    mix(upper, lower, fy)
+}
+
+/// `t` in \[0, 1\] over the image, whose record has this size and last level; `apart` is that of the
+/// region in the same measure. Level 0 is the finest; the last level is kept beyond the end. A place
+/// beyond a side is moved to the side, or comes back in at the other where the image wraps.
 pub(super) fn filtered(
     sampler: &Sampler<'_>,
     record: u32,
+    (size, last_level): ([f32; 2], u32),
     region: &Region,
     t: [f32; 2],
     apart: [f32; 2],
     wraps: [bool; 2],
 ) -> [f32; 4] {
-    let levels = sampler.word(record.wrapping_add(image::LEVEL_COUNT));
-    let coarsest = to_f32(levels.max(1) - 1);
     let finer = 0.25 * to_f32(image::FINER_QUARTERS);
-    let kept = clamp(region.lod - finer, 0.0, coarsest.min(15.0));
+    let kept = clamp(region.lod - finer, 0.0, to_f32(last_level.min(15)));
     let finest = kept.floor();
     let coarse = weight(kept - finest);
-    let full: [u32; 2] = sampler.words(record.wrapping_add(image::SIZE));
-    let level = |at: u32| Level {
-        first: sampler.word(record.wrapping_add(image::LEVELS).wrapping_add(at)),
-        size: full.map(|side| side.checked_shr(at).unwrap_or(0).max(1)),
-        wraps,
-    };
     let at = to_u32(finest);
-    let levels = [(level(at), 1.0 - coarse), (level(at + 1), coarse)];
+    let first = record.wrapping_add(image::LEVELS).wrapping_add(at);
+    let part = f32::from_bits((127 - at) << 23);
+    let level = |tap: u32, part: f32| Level {
+        word: sampler.word(first.wrapping_add(tap)),
+        texels: size.map(|side| side * part),
+    };
+    let levels = [
+        (level(0, part), 1.0 - coarse),
+        (level(1, part * 0.5), coarse),
+    ];
     let count = to_f32(region.places);
     let mut value = [0.0; 4];
     for place in 0..region.places {
         let from_centre = to_f32(place) - 0.5 * (count - 1.0);
-        let here = [0, 1].map(|axis| t[axis] + from_centre * apart[axis]);
+        let inside = [0, 1].map(|axis| {
+            let here = t[axis] + from_centre * apart[axis];
+            if wraps[axis] {
+                here - here.floor()
+            } else {
+                clamp(here, 0.0, 1.0)
+            }
+        });
         for (level, share) in levels {
             if share > 0.0 {
-                value = level.add(sampler, value, here, share);
+                let texel = level.sample(sampler, inside);
+                value = std::array::from_fn(|i| value[i] + share * texel[i]);
             }
         }
     }
@@ -171,9 +163,11 @@ pub(super) fn entry(sampler: &Sampler<'_>, index: u32, uv: [f32; 2], lookup: &Lo
     let rect = entry_rect(sampler, index);
     let size = [rect[2] - rect[0], rect[3] - rect[1]];
     let t = [0, 1].map(|axis| clamp((uv[axis] - rect[axis]) / size[axis], 0.0, 1.0));
-    let width = to_f32(sampler.word(record.wrapping_add(image::SIZE)));
-    let texels_per_cell = width / (size[0] * s.scale[0]);
+    let [width, height, last_level, _] = sampler.words(record.wrapping_add(image::SIZE));
+    let texels = [width, height].map(f32::from_bits);
+    let texels_per_cell = texels[0] / (size[0] * s.scale[0]);
     let region = Region::new(lookup.axes, texels_per_cell);
     let apart = [0, 1].map(|axis| region.apart[axis] / (s.scale[axis] * size[axis]));
-    filtered(sampler, record, &region, t, apart, [false; 2])
+    let image = (texels, last_level);
+    filtered(sampler, record, image, &region, t, apart, [false; 2])
 }

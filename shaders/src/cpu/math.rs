@@ -28,30 +28,3 @@ pub(crate) fn to_u32(x: f32) -> u32 {
 pub(crate) fn to_f32(x: u32) -> f32 {
     x as f32
 }
-
-/// A half's value by exponent arithmetic: exact for every finite half, denormal or not.
-pub(super) fn half_to_f32(bits: u32) -> f32 {
-    /// 2^112, the difference of the exponents' biases.
-    const REBIAS: f32 = f32::from_bits((127 + 112) << 23);
-    let magnitude = f32::from_bits((bits & 0x7fff) << 13) * REBIAS;
-    f32::from_bits(magnitude.to_bits() | (bits & 0x8000) << 16)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use half::f16;
-
-    #[test]
-    fn every_finite_half_is_exact() {
-        for bits in 0..=u16::MAX {
-            let half = f16::from_bits(bits);
-            if half.is_finite() {
-                assert_eq!(
-                    half_to_f32(u32::from(bits)).to_bits(),
-                    half.to_f32().to_bits()
-                );
-            }
-        }
-    }
-}

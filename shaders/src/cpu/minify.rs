@@ -33,7 +33,9 @@ pub(super) fn minify(sampler: &Sampler<'_>, lookup: &Lookup) -> [f32; 4] {
     }
     if fade > 0.0 {
         let apart = [0, 1].map(|axis| region.apart[axis] / s.scale[axis]);
-        let chain = filtered(sampler, s.images, &region, lookup.uv, apart, wraps(sampler));
+        let image = (s.mip_size, s.mip_last_level);
+        let wraps = wraps(sampler);
+        let chain = filtered(sampler, s.images, image, &region, lookup.uv, apart, wraps);
         value = std::array::from_fn(|i| value[i] + fade * chain[i]);
     }
     value

@@ -36,6 +36,9 @@ use lookup::Lookup;
 pub(crate) use math::{to_f32, to_u32};
 use settings::Settings;
 
+use crate::packed::Packed;
+use crate::texels::TexelPages;
+
 /// A packed texture ready to be looked up. Cheap to make and to copy; lookups allocate nothing.
 ///
 /// Words past the buffer's end read as zero, as on a GPU with robust buffer access, so a buffer
@@ -43,14 +46,25 @@ use settings::Settings;
 #[derive(Clone, Copy, Debug)]
 pub struct Sampler<'a> {
     words: &'a [u32],
+    texels: &'a TexelPages,
+    /// Linear light of the codes of a texel's channel.
+    decode: &'static [f32; 256],
     settings: Settings,
 }
 
 impl<'a> Sampler<'a> {
-    /// Reads the header of `words`, the words of one texture from [`crate::pack`].
-    pub fn new(words: &'a [u32]) -> Self {
+    /// Reads the header of a texture.
+    pub fn new(packed: &'a Packed) -> Self {
+        Self::of(&packed.words, &packed.texels)
+    }
+
+    /// As [`Sampler::new`]; `words` are those of one texture, and may begin anywhere in those of a
+    /// [`PackedSet`](crate::PackedSet).
+    pub fn of(words: &'a [u32], texels: &'a TexelPages) -> Self {
         Self {
             words,
+            texels,
+            decode: &color::DECODED,
             settings: Settings::read(words),
         }
     }
@@ -75,7 +89,8 @@ impl<'a> Sampler<'a> {
 /// Whether the entry whose commands `words` start with fills at `p`, in units of its cell's box.
 #[cfg(test)]
 pub(crate) fn commands_fill(words: &[u32], p: [f32; 2]) -> bool {
-    let sampler = Sampler::new(words);
+    let texels = TexelPages::default();
+    let sampler = Sampler::of(words, &texels);
     let point = samples::Point {
         uv: [0.0; 2],
         q: [0.0; 2],

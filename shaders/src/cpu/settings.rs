@@ -33,6 +33,9 @@ pub(super) struct Settings {
     pub(super) paints: u32,
     pub(super) tiles: u32,
     pub(super) images: u32,
+    /// Of image 0.
+    pub(super) mip_size: [f32; 2],
+    pub(super) mip_last_level: u32,
     /// Units of the curve lattice along a cell, and around it.
     pub(super) curve_lattice: [f32; 2],
     pub(super) features: u32,
@@ -66,6 +69,8 @@ impl Settings {
             paints: word(header::PAINTS),
             tiles: word(header::TILES),
             images: word(header::IMAGES),
+            mip_size: float2(header::MIP_SIZE),
+            mip_last_level: word(header::MIP_SIZE + 2),
             curve_lattice: float2(header::CURVE_UNITS),
             features: word(header::FEATURES),
         };

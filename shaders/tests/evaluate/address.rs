@@ -19,8 +19,8 @@ fn steps() -> VtexFile {
 
 /// Which of the four cells is seen at `uv`; `None` for nothing.
 fn seen(options: &PackOptions, uv: [f32; 2]) -> Option<usize> {
-    let words = pack(&steps(), options);
-    let [r, _, _, a] = Sampler::new(&words).sample(uv, [0.0; 4]);
+    let packed = pack(&steps(), options);
+    let [r, _, _, a] = Sampler::new(&packed).sample(uv, [0.0; 4]);
     let encoded = formula::encode(f64::from(r)) * 10.0;
     (a > 0.0).then(|| encoded.round() as usize - 1)
 }
@@ -92,8 +92,8 @@ fn the_footprint_goes_through_the_matrix() {
             texture_matrix: Some([scale, 0.0, 0.0, scale, 0.0, 0.0]),
             ..PackOptions::default()
         };
-        let words = pack(&file, &options);
-        Sampler::new(&words).sample([u, 0.5 / scale], [width, 0.0, 0.0, width])[3]
+        let packed = pack(&file, &options);
+        Sampler::new(&packed).sample([u, 0.5 / scale], [width, 0.0, 0.0, width])[3]
     };
     let (plain, halved) = (alpha(1.0, 0.55, 0.4), alpha(0.5, 1.1, 0.8));
     assert!((plain - halved).abs() < 1e-6, "{plain} and {halved}");

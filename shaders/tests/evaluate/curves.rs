@@ -35,9 +35,9 @@ fn alpha(file: &VtexFile, filter: FilterMode, width: f32) -> impl Fn(f32, f32) -
         filter,
         ..PackOptions::default()
     };
-    let words = pack(file, &options);
+    let packed = pack(file, &options);
     let columns = file.meta.grid.size_cells[0] as f32;
-    move |u, v| Sampler::new(&words).sample([u, v], [width / columns, 0.0, 0.0, width])[3]
+    move |u, v| Sampler::new(&packed).sample([u, v], [width / columns, 0.0, 0.0, width])[3]
 }
 
 /// Points of a raster that lie on no edge of the shapes here.
@@ -262,7 +262,7 @@ fn an_outline_leaves_curves_alone() {
             ..PackOptions::default()
         };
         let [outlined, plain] = [&file, &plain].map(|file| pack(file, &options));
-        let [outlined, plain] = [&outlined, &plain].map(|words| Sampler::new(words));
+        let [outlined, plain] = [&outlined, &plain].map(Sampler::new);
         for (u, v) in raster() {
             let [got, expected] =
                 [outlined, plain].map(|sampler| sampler.sample([u, v], [0.05, 0.0, 0.0, 0.05]));
@@ -289,8 +289,8 @@ fn curves_and_tiles_share_a_list() {
         data: place,
     };
     push_entries(&mut file, 0, &[curves, tile]);
-    let words = pack(&file, &PackOptions::default());
-    let sampler = Sampler::new(&words);
+    let packed = pack(&file, &PackOptions::default());
+    let sampler = Sampler::new(&packed);
     for (point, expected) in [
         ([0.3, 0.5], [1.0, 0.0]),
         ([0.7, 0.5], [1.0, 0.0]),

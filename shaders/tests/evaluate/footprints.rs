@@ -2,7 +2,7 @@
 
 use vtex_format::{AddressMode, CurveHeader, Entry, EntryKind, VtexFile};
 use vtex_shaders::cpu::Sampler;
-use vtex_shaders::{FilterMode, PackOptions, pack};
+use vtex_shaders::{FilterMode, PackOptions, Packed, pack};
 
 use crate::builder::{
     Cover, Segment, board_of, paint, push_entries, push_record, row_of, set_list, set_record,
@@ -95,7 +95,7 @@ fn board() -> VtexFile {
     file
 }
 
-fn packed(file: &VtexFile, filter: FilterMode, halvings: u32) -> Vec<u32> {
+fn packed(file: &VtexFile, filter: FilterMode, halvings: u32) -> Packed {
     let options = PackOptions {
         filter,
         halvings: Some(halvings),
@@ -127,7 +127,7 @@ fn a_footprint_is_the_mean_of_points() {
     for halvings in [0, 2, 4] {
         let [points, footprints] =
             [FilterMode::Point, FilterMode::Footprint].map(|f| packed(&file, f, halvings));
-        let [points, footprints] = [&points, &footprints].map(|words| Sampler::new(words));
+        let [points, footprints] = [&points, &footprints].map(Sampler::new);
         for form in FORMS {
             let mut r = Random(5);
             let mut off = 0;
@@ -153,8 +153,8 @@ fn a_footprint_is_the_mean_of_points() {
 #[test]
 fn places_fill_the_footprint_evenly() {
     let file = board();
-    let words = packed(&file, FilterMode::Footprint, 0);
-    let sampler = Sampler::new(&words);
+    let packed = packed(&file, FilterMode::Footprint, 0);
+    let sampler = Sampler::new(&packed);
     for form in FORMS {
         let mut r = Random(9);
         for _ in 0..500 {
@@ -199,8 +199,8 @@ fn places_fill_the_footprint_evenly() {
 #[test]
 fn without_a_footprint_curves_show_what_points_do() {
     let file = board();
-    let words = [FilterMode::Point, FilterMode::Footprint].map(|f| packed(&file, f, 2));
-    let [points, footprints] = words.each_ref().map(|words| Sampler::new(words));
+    let both = [FilterMode::Point, FilterMode::Footprint].map(|f| packed(&file, f, 2));
+    let [points, footprints] = both.each_ref().map(Sampler::new);
     let mut r = Random(3);
     for _ in 0..20_000 {
         let uv = [r.unit(), r.unit()];
@@ -218,8 +218,8 @@ fn what_lies_beyond_the_canvas_does_not_count() {
     };
     let place = push_record(&mut file, base, &[], &[]);
     set_record(&mut file, 0, place, RED);
-    let words = packed(&file, FilterMode::Footprint, 0);
-    let sampler = Sampler::new(&words);
+    let packed = packed(&file, FilterMode::Footprint, 0);
+    let sampler = Sampler::new(&packed);
     for uv in [[0.0, 0.5], [1.0, 1.0], [0.5, 0.02]] {
         for side in [0.1, 1.0, 3.0] {
             let axes = [side, 0.0, 0.0, side];
@@ -237,8 +237,8 @@ fn samples_that_miss_the_canvas_do_not_show_what_lies_beyond() {
     let corners = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]];
     let mut file = row_of(1);
     set_shapes(&mut file, 0, &[(&polygon(&corners), RED)]);
-    let words = packed(&file, FilterMode::Footprint, 0);
-    let sampler = Sampler::new(&words);
+    let packed = packed(&file, FilterMode::Footprint, 0);
+    let sampler = Sampler::new(&packed);
     for (uv, axes) in [
         ([0.01, 0.5], [30.0, 0.0, 0.0, 30.0]),
         // Across a corner of the canvas.
@@ -282,10 +282,10 @@ fn shapes_that_abut_leave_no_seam() {
         let mut solid = row_of(1);
         set_solid(&mut solid, 0, color);
         for halvings in [0, 3] {
-            let [words, solid] =
+            let [packed, solid] =
                 [&file, &solid].map(|file| packed(file, FilterMode::Footprint, halvings));
             let expected = Sampler::new(&solid).sample([0.5; 2], [0.0; 4]);
-            let sampler = Sampler::new(&words);
+            let sampler = Sampler::new(&packed);
             let mut r = Random(7);
             for form in FORMS {
                 for _ in 0..4000 {

@@ -93,8 +93,8 @@ fn compare(gradient: &Gradient) -> u32 {
     let file = solid_cell(gradient);
     let features = SpecKey::for_file(&file).features;
     assert_eq!(features, Features::GRADIENTS, "a cell's paint counts");
-    let words = pack(&file, &PackOptions::default());
-    let sampler = Sampler::new(&words);
+    let packed = pack(&file, &PackOptions::default());
+    let sampler = Sampler::new(&packed);
     let mut compared = 0;
     for i in 0..400_u16 {
         let (u, v) = (
@@ -179,8 +179,8 @@ fn of_stops_at_one_offset_the_last_rules_from_there_on() {
             stop(0.5, white),
         ],
     };
-    let words = pack(&solid_cell(&gradient), &PackOptions::default());
-    let sampler = Sampler::new(&words);
+    let packed = pack(&solid_cell(&gradient), &PackOptions::default());
+    let sampler = Sampler::new(&packed);
     assert_eq!(sampler.sample([0.5, 0.5], [0.0; 4]), white);
     assert_eq!(sampler.sample([0.5_f32.next_down(), 0.5], [0.0; 4])[0], 0.0);
 }
@@ -220,20 +220,20 @@ fn a_gradient_composites_as_a_colour_does() {
             filter,
             ..PackOptions::default()
         };
-        let words = pack(&file, &options);
+        let packed = pack(&file, &options);
         for i in 0..50_u16 {
             let u = (f32::from(i) + 0.3) / 50.0;
             let middle = color_at(&gradient, [f64::from(u), 0.5]).expect("not at the jump");
             let expected: Rgba = formula::composited(&[term(front), term(middle), term(back)]);
-            let got = Sampler::new(&words).sample([u, 0.5], [0.0; 4]);
+            let got = Sampler::new(&packed).sample([u, 0.5], [0.0; 4]);
             check(got, expected, 1e-4);
         }
     }
     file.meta.sampler.mask = true;
     file.entries.truncate(4);
     file.entries[2] |= 1 << 27;
-    let words = pack(&file, &PackOptions::default());
-    let got = Sampler::new(&words).sample([0.9, 0.5], [0.0; 4]);
+    let packed = pack(&file, &PackOptions::default());
+    let got = Sampler::new(&packed).sample([0.9, 0.5], [0.0; 4]);
     // Packed paints have 16 bits a channel.
     check(got, [0.75; 4], 1e-5);
 }
@@ -261,7 +261,7 @@ fn a_footprint_sees_a_gradient_at_the_mean_of_its_samples() {
         data: push_record(&mut file, CurveHeader::default(), &[], &circle()),
     };
     push_entries(&mut file, 0, &[entry]);
-    let words = [FilterMode::Point, FilterMode::Footprint].map(|filter| {
+    let both = [FilterMode::Point, FilterMode::Footprint].map(|filter| {
         let options = PackOptions {
             filter,
             halvings: Some(0),
@@ -269,7 +269,7 @@ fn a_footprint_sees_a_gradient_at_the_mean_of_its_samples() {
         };
         pack(&file, &options)
     });
-    let [points, footprints] = words.each_ref().map(|words| Sampler::new(words));
+    let [points, footprints] = both.each_ref().map(Sampler::new);
     let mut partial = 0;
     for i in 0..400_u16 {
         let uv = [i % 20, i / 20].map(|k| f32::from(k) / 20.0 + 0.021);

@@ -97,8 +97,8 @@ fn the_chain_wraps_where_the_address_mode_repeats() {
             address: Some([mode; 2]),
             ..PackOptions::default()
         };
-        let words = pack(&file, &options);
-        let got = Sampler::new(&words).sample([0.999_999, 0.5], [0.25, 0.0, 0.0, 0.25]);
+        let packed = pack(&file, &options);
+        let got = Sampler::new(&packed).sample([0.999_999, 0.5], [0.25, 0.0, 0.0, 0.25]);
         check(got, [0.0, expected, 0.0, 1.0], 1e-3);
     }
 }
@@ -263,10 +263,10 @@ fn a_long_footprint_is_averaged_along_its_longer_axis_alone() {
                 for kind in [across, along] {
                     let expected = kind.mean([32.0; 2], [long, short]);
                     for file in waves(kind) {
-                        let words = pack(&file, &PackOptions::default());
+                        let packed = pack(&file, &PackOptions::default());
                         let footprint = axes.as_flattened();
                         let footprint = std::array::from_fn(|i| footprint[i] as f32 / 64.0);
-                        let got = Sampler::new(&words).sample([0.5; 2], footprint);
+                        let got = Sampler::new(&packed).sample([0.5; 2], footprint);
                         let apart = (f64::from(got[0]) - expected).abs();
                         assert!(apart < 0.05, "{kind:?} {ratio}: {got:?}, not {expected}");
                     }
@@ -280,7 +280,7 @@ fn a_long_footprint_is_averaged_along_its_longer_axis_alone() {
 #[test]
 fn the_longest_footprints_get_wider() {
     let file = grey_levels();
-    let words = pack(&file, &PackOptions::default());
+    let packed = pack(&file, &PackOptions::default());
     for (long, short) in [
         (16.0, 2.0),
         (16.0, 1.0),
@@ -290,7 +290,7 @@ fn the_longest_footprints_get_wider() {
     ] {
         let [long_uv, short_uv] = [long, short].map(|texels: f64| (texels / 16.0) as f32);
         let expected = level_value(f64::log2(long / 8.0) - FINER);
-        let got = Sampler::new(&words).sample([0.5; 2], [0.0, long_uv, short_uv, 0.0]);
+        let got = Sampler::new(&packed).sample([0.5; 2], [0.0, long_uv, short_uv, 0.0]);
         check(got, [expected, expected, expected, 1.0], 1e-3);
     }
 }
@@ -309,7 +309,7 @@ fn a_mask_reads_the_alpha_of_texels() {
 
 #[test]
 fn garbage_words_never_panic() {
-    let words = pack(&patched(128), &PackOptions::default());
+    let packed = pack(&patched(128), &PackOptions::default());
     let mut state = 1_u64;
     let mut random = || {
         state = state
@@ -318,7 +318,7 @@ fn garbage_words_never_panic() {
         (state >> 33) as u32
     };
     for _ in 0..20_000 {
-        let mut broken = words.clone();
+        let mut broken = packed.words.clone();
         for _ in 0..1 + random() % 4 {
             let at = random() as usize % broken.len().min(48);
             broken[at] = if random() % 2 == 0 {
@@ -328,10 +328,11 @@ fn garbage_words_never_panic() {
             };
         }
         broken.truncate(random() as usize % broken.len());
+        let sampler = Sampler::of(&broken, &packed.texels);
         let uv = [random() as f32 / 1e9, random() as f32 / 1e9];
         let special = [0.0, 1e-3, 1e9, f32::INFINITY, f32::NAN][random() as usize % 5];
-        Sampler::new(&broken).sample(uv, [special, 0.0, 0.1, special]);
-        Sampler::new(&broken).sample([special, uv[1]], [0.0; 4]);
+        sampler.sample(uv, [special, 0.0, 0.1, special]);
+        sampler.sample([special, uv[1]], [0.0; 4]);
     }
 }
 
@@ -339,14 +340,14 @@ fn garbage_words_never_panic() {
 fn a_footprint_sees_the_share_of_a_patch_that_it_covers() {
     for (alpha, opaque) in [(255, true), (255, false), (100, false)] {
         let file = patched_as(alpha, opaque);
-        let words = [FilterMode::Point, FilterMode::Footprint].map(|filter| {
+        let both = [FilterMode::Point, FilterMode::Footprint].map(|filter| {
             let options = PackOptions {
                 filter,
                 ..PackOptions::default()
             };
             pack(&file, &options)
         });
-        let [points, footprints] = words.each_ref().map(|words| Sampler::new(words));
+        let [points, footprints] = both.each_ref().map(Sampler::new);
         let mut shares = Vec::new();
         for i in 0..400 {
             let turn = 0.1 * i as f32;

@@ -208,8 +208,8 @@ fn neighbouring_channels_make_a_corner() {
         let (right, below) = (byte(x as f32 - 1.5), byte(y as f32 - 1.5));
         texel[..3].copy_from_slice(&[right, below, right.min(below)]);
     }
-    let words = vtex_shaders::pack(&file, &vtex_shaders::PackOptions::default());
-    let sampler = vtex_shaders::cpu::Sampler::new(&words);
+    let packed = vtex_shaders::pack(&file, &vtex_shaders::PackOptions::default());
+    let sampler = vtex_shaders::cpu::Sampler::new(&packed);
     for i in 0..40 {
         for j in 0..40 {
             let (u, v) = ((i as f32 + 0.5) / 40.0, (j as f32 + 0.5) / 40.0);

@@ -29,8 +29,8 @@ fn sample(file: &VtexFile, filter: FilterMode, u: f32, width: f32) -> [f32; 4] {
         ..PackOptions::default()
     };
     let columns = file.meta.grid.size_cells[0] as f32;
-    let words = pack(file, &options);
-    Sampler::new(&words).sample([u, 0.5], [width, 0.0, 0.0, width * columns])
+    let packed = pack(file, &options);
+    Sampler::new(&packed).sample([u, 0.5], [width, 0.0, 0.0, width * columns])
 }
 
 #[track_caller]

@@ -1,5 +1,5 @@
 //! The layout that shaders stored in files rely on, frozen under `SHADER_ABI`: the constants of
-//! packed words, and as naga sees them in shaders with every feature the buffers, the records in
+//! packed words, and as naga sees them in shaders with every feature the bindings, the records in
 //! them and the functions that a host calls.
 //!
 //! The path tracer's own records (`wgsl/trace/layout.wgsl`) are not part of it: no file holds them.
@@ -7,7 +7,10 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use naga::{AddressSpace, Handle, Module, ScalarKind, StorageAccess, Type, TypeInner};
+use naga::{
+    AddressSpace, Handle, ImageClass, ImageDimension, Module, ScalarKind, StorageAccess, Type,
+    TypeInner,
+};
 use vtex_format::{Features, SHADER_ABI, SpecKey};
 use vtex_shaders::layout::{CONSTANTS, OFFSET_END};
 use vtex_shaders::{BindingSlot, batch_kernel, scene_evaluator};
@@ -21,8 +24,8 @@ fn the_gpu_layout_changes_only_with_shader_abi() {
     let scene = scene_evaluator(Features::ALL, BindingSlot::default());
     let text = [
         constants(),
-        buffers("batch", &batch),
-        buffers("scene", &scene),
+        bindings("batch", &batch),
+        bindings("scene", &scene),
         functions(&batch),
     ];
     Frozen {
@@ -44,8 +47,8 @@ fn constants() -> String {
     text
 }
 
-/// Buffers of a module, and the structs in them.
-fn buffers(kind: &str, wgsl: &str) -> String {
+/// Bindings of a module, and the structs in them.
+fn bindings(kind: &str, wgsl: &str) -> String {
     let module = naga::front::wgsl::parse_str(wgsl).expect("WGSL");
     let mut text = String::new();
     for (_, variable) in module.global_variables.iter() {
@@ -58,6 +61,7 @@ fn buffers(kind: &str, wgsl: &str) -> String {
                 "read_write"
             }
             AddressSpace::Storage { .. } => "read",
+            AddressSpace::Handle => "handle",
             other => panic!("{name} lies in {other:?}"),
         };
         let (group, binding) = (at.group, at.binding);
@@ -141,6 +145,16 @@ fn type_name(module: &Module, ty: Handle<Type>) -> String {
             format!("array<{}> of stride {stride}", type_name(module, *base))
         }
         TypeInner::Struct { .. } => ty.name.clone().unwrap_or_default(),
+        TypeInner::Image {
+            dim: ImageDimension::D2,
+            arrayed: true,
+            class:
+                ImageClass::Sampled {
+                    kind: ScalarKind::Float,
+                    multi: false,
+                },
+        } => "texture_2d_array<f32>".to_owned(),
+        TypeInner::Sampler { comparison: false } => "sampler".to_owned(),
         other => panic!("no type of the layout: {other:?}"),
     }
 }

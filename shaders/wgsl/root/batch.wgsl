@@ -2,8 +2,8 @@
 //!use root/fragment
 // The batch kernel: an array of queries in, an array of colours out.
 
-@group(0) @binding(1) var<storage, read> vtex_queries: array<VtexBatchQuery>;
-@group(0) @binding(2) var<storage, read_write> vtex_results: array<vec4f>;
+@group(0) @binding(3) var<storage, read> vtex_queries: array<VtexBatchQuery>;
+@group(0) @binding(4) var<storage, read_write> vtex_results: array<vec4f>;
 
 @compute @workgroup_size(64)
 fn vtex_batch(

@@ -1,18 +1,6 @@
 //!use core/layout
 //!use vtex/texture
-// Raster images: trilinear lookups by hand. Texel centres lie at +0.5.
-
-// `index`, at most one beyond `count` texels, comes back in: where it went out, or at the other side.
-fn vtex_image_neighbour(index: f32, count: f32, wraps: bool) -> f32 {
-    let kept = clamp(index, 0.0, count - 1.0);
-    return select(kept, count - 1.0 - kept, wraps && kept != index);
-}
-
-// Four halves: linear light, premultiplied.
-fn vtex_image_texel(vt: VtexTexture, index: u32) -> vec4f {
-    let words = vtex_word2(vt, index);
-    return vec4f(unpack2x16float(words.x), unpack2x16float(words.y));
-}
+// Raster images. The sampler interpolates between the texels of a level; levels and places are mixed here.
 
 // A weight between two sides, of which the lesser is left out where it cannot be seen: it would
 // cost as much as the other.
@@ -22,7 +10,7 @@ fn vtex_image_weight(weight: f32) -> f32 {
     return select(kept, 1.0, weight > 1.0 - least);
 }
 
-// How a footprint is looked up in an image: by trilinear lookups in one level, in a row along its
+// How a footprint is looked up in an image: by trilinear lookups of one lod, in a row along its
 // longer principal axis.
 struct VtexImageRegion {
     // Of the width in texels that each of them stands for; at least -1.
@@ -60,45 +48,47 @@ fn vtex_image_region(axes: vec4f, texels_per_cell: f32) -> VtexImageRegion {
     return VtexImageRegion(lod, u32(places), apart);
 }
 
-// `t` in [0, 1] over the image, of `size` texels in `levels` levels; `apart` is that of the region in
-// the same measure. Level 0 is the finest; the last level is kept beyond the end. Texels are added up
-// one by one: that keeps the code small where compilers run all of it for lookups that need none.
+// `t` in [0, 1] over the image, whose record has this size and last level; `apart` is that of the region
+// in the same measure. Level 0 is the finest; the last level is kept beyond the end. A place beyond a
+// side is moved to the side, or comes back in at the other where the image wraps; the texels around a
+// level show what lies there.
 fn vtex_image_filtered(
     vt: VtexTexture,
     record: u32,
-    size: vec2u,
-    levels: u32,
+    size: vec2f,
+    last_level: u32,
     region: VtexImageRegion,
     t: vec2f,
     apart: vec2f,
     wraps: vec2<bool>,
 ) -> vec4f {
     let finer = 0.25 * f32(VTEX_IMAGE_FINER_QUARTERS);
-    let kept = clamp(region.lod - finer, 0.0, min(f32(max(levels, 1u) - 1u), 15.0));
+    let kept = clamp(region.lod - finer, 0.0, f32(min(last_level, 15u)));
     let level = floor(kept);
     let coarse = vtex_image_weight(kept - level);
-    // Four of each level, or of one.
-    let first_tap = select(0u, 4u, coarse >= 1.0);
-    let last_tap = select(3u, 7u, coarse > 0.0);
+    // Behind the last level there is none, and it has no weight.
+    let levels = vtex_word2(vt, record + VTEX_IMAGE_LEVELS + u32(level));
+    let texel_size = 1.0 / vec2f(textureDimensions(vtex_texels));
+    // Of the finer level: the size over 2 to the level.
+    let texels = size * bitcast<f32>((127u - u32(level)) << 23u);
+    // One of each level, or of one.
+    let first_tap = select(0u, 1u, coarse >= 1.0);
+    let last_tap = select(0u, 1u, coarse > 0.0);
     let count = f32(region.places);
     var place = 0u;
     var tap = first_tap;
     var value = vec4f(0.0);
     for (var i = 0u; i < VTEX_IMAGE_TAPS * VTEX_IMAGE_PLACES; i += 1u) {
         let here = t + (f32(place) - 0.5 * (count - 1.0)) * apart;
-        let at = u32(level) + (tap >> 2u);
-        let row = max(size >> vec2u(at), vec2u(1u));
-        let x = here * vec2f(row) - 0.5;
-        let corner = floor(x);
-        let step = vec2f(f32(tap & 1u), f32((tap >> 1u) & 1u));
-        // The weight of the near texel is 1 - f, that of the far one f.
-        let weights = abs(1.0 - step - (x - corner));
-        let weight = weights.x * weights.y * select(1.0 - coarse, coarse, tap >= 4u);
-        let column = u32(vtex_image_neighbour(corner.x + step.x, f32(row.x), wraps.x));
-        let line = u32(vtex_image_neighbour(corner.y + step.y, f32(row.y), wraps.y));
-        let first = vtex_word(vt, record + VTEX_IMAGE_LEVELS + at);
-        let texel = first + (line * row.x + column) * VTEX_IMAGE_TEXEL_WORDS;
-        value += weight * vtex_image_texel(vt, texel);
+        let inside = select(clamp(here, vec2f(0.0), vec2f(1.0)), here - floor(here), wraps);
+        let is_coarse = tap == 1u;
+        let word = select(levels.x, levels.y, is_coarse);
+        let corner = vec2u(word, word >> VTEX_IMAGE_Y_SHIFT) & vec2u(VTEX_IMAGE_X_MASK);
+        let at = vec2f(corner) + inside * texels * select(1.0, 0.5, is_coarse);
+        let texel = textureSampleLevel(
+            vtex_texels, vtex_sampler, at * texel_size, word >> VTEX_IMAGE_PAGE_SHIFT, 0.0,
+        );
+        value += select(1.0 - coarse, coarse, is_coarse) * texel;
         if tap == last_tap {
             place += 1u;
             if place >= region.places {

@@ -17,10 +17,11 @@ fn vtex_image_entry(vt: VtexTexture, lookup: VtexLookup, index: u32, uv: vec2f) 
     let size = rect.zw - rect.xy;
     let t = clamp((uv - rect.xy) / size, vec2f(0.0), vec2f(1.0));
     let about = vtex_word4(vt, record + VTEX_IMAGE_SIZE);
-    let texels_per_cell = f32(about.x) / (size.x * vt.cell_from_uv.x);
+    let texels = bitcast<vec2f>(about.xy);
+    let texels_per_cell = texels.x / (size.x * vt.cell_from_uv.x);
     let region = vtex_image_region(lookup.axes, texels_per_cell);
     let apart = region.apart / (vt.cell_from_uv.xy * size);
     return vtex_image_filtered(
-        vt, record, about.xy, about.z, region, t, apart, vec2<bool>(false),
+        vt, record, texels, about.z, region, t, apart, vec2<bool>(false),
     );
 }

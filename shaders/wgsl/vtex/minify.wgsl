@@ -27,10 +27,9 @@ fn vtex_minify(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
     }
     if fade > 0.0 {
         let wraps = vtex_mapping_wraps(vt);
-        let size = vt.mip_size;
         let apart = region.apart / vt.cell_from_uv.xy;
         value += fade * vtex_image_filtered(
-            vt, vt.images, size, vt.mip_levels, region, lookup.uv, apart, wraps,
+            vt, vt.images, vt.mip_size, vt.mip_last_level, region, lookup.uv, apart, wraps,
         );
     }
     return value;

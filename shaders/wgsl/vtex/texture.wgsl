@@ -23,10 +23,10 @@ struct VtexTexture {
     commands: u32,
     paints: u32,
     tiles: u32,
-    // First word of the image records, and the size of image 0.
+    // First word of the image records, and of image 0 its size and last level.
     images: u32,
-    mip_size: vec2u,
-    mip_levels: u32,
+    mip_size: vec2f,
+    mip_last_level: u32,
 }
 
 // `first`: the texture's first word in the buffer.
@@ -50,7 +50,7 @@ fn vtex_texture(first: u32) -> VtexTexture {
         places.z,
         places.w,
         images.x,
-        images.yz,
+        bitcast<vec2f>(images.yz),
         images.w,
     );
 }

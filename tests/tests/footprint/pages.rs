@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use vtex_baker::{BakeConfig, Resources, bake};
-use vtex_shaders::{cpu, pack};
+use vtex_shaders::{Packed, cpu, pack};
 use vtex_tests::fonts;
 use vtex_truth::comparison::{Comparison, Terms};
 use vtex_truth::picture::{Picture, Shot, View};
@@ -23,8 +23,8 @@ fn svg(name: &str) -> Vec<u8> {
     std::fs::read(path).unwrap()
 }
 
-/// The words of a drawing in footprint mode, whose mip 0 has so many texels.
-fn words(svg: &[u8], mip0_size: u32) -> Vec<u32> {
+/// A drawing in footprint mode, whose mip 0 has so many texels.
+fn packed(svg: &[u8], mip0_size: u32) -> Packed {
     let config = BakeConfig {
         mip0_size,
         ..BakeConfig::default()
@@ -46,8 +46,8 @@ fn shot(side_px: u32) -> Shot {
     }
 }
 
-fn shoot(words: &[u32], shot: Shot) -> Picture {
-    let sampler = cpu::Sampler::new(words);
+fn shoot(packed: &Packed, shot: Shot) -> Picture {
+    let sampler = cpu::Sampler::new(packed);
     shot.shoot(|uv, axes| sampler.sample(uv, axes))
 }
 
@@ -75,9 +75,9 @@ fn pages_come_near_to_the_truth() {
             mask: false,
         };
         let comparison = Comparison::new(&reference, terms).unwrap();
-        let [mips, cells] = MIP0.map(|texels| words(&svg, texels));
-        let psnr_db = |words: &[u32], zoom| {
-            let report = comparison.measure(zoom, |shot| Ok(shoot(words, shot)));
+        let [mips, cells] = MIP0.map(|texels| packed(&svg, texels));
+        let psnr_db = |packed: &Packed, zoom| {
+            let report = comparison.measure(zoom, |shot| Ok(shoot(packed, shot)));
             report.unwrap().worst().difference.psnr_db
         };
         let found = [
@@ -109,7 +109,7 @@ fn ink(picture: &Picture) -> [[f64; 6]; 6] {
 #[test]
 fn hairlines_keep_their_ink() {
     let svg = svg("hairlines");
-    let cells = words(&svg, MIP0[1]);
+    let cells = packed(&svg, MIP0[1]);
     for side_px in [480, 497, 512] {
         let found = ink(&shoot(&cells, shot(side_px)));
         for (width, row) in WIDTHS.iter().zip(found) {
@@ -134,10 +134,10 @@ fn hairlines_keep_their_ink() {
 #[test]
 fn abutting_shapes_show_no_seam() {
     let svg = svg("abutting");
-    let [mips, cells] = MIP0.map(|texels| words(&svg, texels));
-    for words in [mips, cells] {
+    let [mips, cells] = MIP0.map(|texels| packed(&svg, texels));
+    for packed in [mips, cells] {
         for side_px in [480, 512, 700, 1333] {
-            let picture = shoot(&words, shot(side_px));
+            let picture = shoot(&packed, shot(side_px));
             // A pixel inside the square from 20 to 460 units, and what bilinear lookups reach.
             let inside = |place: u32| {
                 let [near, far] = [-2.0, 3.0].map(|reach| f64::from(place) + reach);

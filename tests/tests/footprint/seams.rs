@@ -100,8 +100,8 @@ impl Scene {
     fn leaks_of(file: &VtexFile, queries: &[BatchQuery], options: &LoadOptions) -> [usize; 2] {
         // No number at all is a leak as well. Weights that add up to 1 do so but for rounding.
         let green = |color: &[f32; 4]| !(color[1] <= 0.0 && color[3] > 1.0 - 1e-6);
-        let words = pack(file, &options.pack);
-        let sampler = cpu::Sampler::new(&words);
+        let packed = pack(file, &options.pack);
+        let sampler = cpu::Sampler::new(&packed);
         let twin = queries.par_iter();
         let twin = twin.filter(|query| green(&sampler.sample(query.uv, query.footprint)));
         let twin = twin.count();
@@ -300,8 +300,8 @@ fn mips_hide_the_ground() {
         }
         let queries = scene.queries(true);
         for filter in FILTERS {
-            let words = pack(&file, &options(filter).pack);
-            let sampler = cpu::Sampler::new(&words);
+            let packed = pack(&file, &options(filter).pack);
+            let sampler = cpu::Sampler::new(&packed);
             let seen = queries
                 .iter()
                 .map(|query| sampler.sample(query.uv, query.footprint)[1]);

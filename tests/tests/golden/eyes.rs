@@ -2,13 +2,14 @@
 
 use vtex_format::VtexFile;
 use vtex_runtime::{BatchQuery, BatchSampler, Gpu};
+use vtex_shaders::Packed;
 use vtex_tests::parity::{Parity, Subject};
 use vtex_truth::picture::Shot;
 use vtex_truth::texture::{FilterMode, Shooter, canvas_options};
 
 /// A file packed for one filter mode, for both evaluators.
 pub(crate) struct Eyes {
-    words: Vec<u32>,
+    packed: Packed,
     /// Of the key that it is looked up with.
     pub(crate) features: u32,
     /// `None` with `VTEX_GPU=off`.
@@ -31,7 +32,7 @@ impl Eyes {
             Shooter::Cpu { .. } => unreachable!("asked for a GPU"),
         };
         Self {
-            words: vtex_shaders::pack(file, &pack),
+            packed: vtex_shaders::pack(file, &pack),
             features: vtex_shaders::spec_key(file, &pack).features,
             gpu: gpu.map(sampler),
         }
@@ -39,7 +40,8 @@ impl Eyes {
 
     fn subject(&self) -> Subject<'_> {
         Subject {
-            words: &self.words,
+            words: &self.packed.words,
+            texels: &self.packed.texels,
             features: self.features,
         }
     }

@@ -38,14 +38,14 @@ fn lookups(c: &mut Criterion) {
         ("minified", FilterMode::Footprint, 24.0 * CLOSE),
     ];
     for (name, filter, pixel) in modes {
-        let words = pack(
+        let packed = pack(
             &file,
             &PackOptions {
                 filter,
                 ..PackOptions::default()
             },
         );
-        let sampler = Sampler::new(&words);
+        let sampler = Sampler::new(&packed);
         group.bench_function(name, |bench| bench.iter(|| lattice(&sampler, pixel)));
     }
 }

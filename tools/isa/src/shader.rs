@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use naga::{AddressSpace, ShaderStage};
+use naga::{AddressSpace, ImageClass, ShaderStage, TypeInner};
 
 use crate::Error;
 
@@ -23,11 +23,20 @@ pub(crate) enum Stages {
     Graphics { vertex: String, fragment: String },
 }
 
-/// One buffer.
+/// One resource.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Binding {
     pub(crate) binding: u32,
-    pub(crate) is_uniform: bool,
+    pub(crate) kind: Kind,
+}
+
+/// What is bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Uniform,
+    Storage,
+    Texture,
+    Sampler,
 }
 
 impl Shader {
@@ -74,17 +83,26 @@ fn groups(module: &naga::Module) -> Result<Vec<Vec<Binding>>, Error> {
         let Some(place) = &variable.binding else {
             continue;
         };
-        let is_uniform = match variable.space {
-            AddressSpace::Uniform => true,
-            AddressSpace::Storage { .. } => false,
+        let kind = match (variable.space, &module.types[variable.ty].inner) {
+            (AddressSpace::Uniform, _) => Kind::Uniform,
+            (AddressSpace::Storage { .. }, _) => Kind::Storage,
+            (
+                AddressSpace::Handle,
+                TypeInner::Image {
+                    class: ImageClass::Sampled { .. },
+                    ..
+                },
+            ) => Kind::Texture,
+            (AddressSpace::Handle, TypeInner::Sampler { .. }) => Kind::Sampler,
             _ => {
                 let name = variable.name.as_deref().unwrap_or("a variable");
-                return Err(Error::Shader(format!("{name} is not a buffer")));
+                let problem = "is no buffer, sampled texture or sampler";
+                return Err(Error::Shader(format!("{name} {problem}")));
             }
         };
         groups.entry(place.group).or_default().push(Binding {
             binding: place.binding,
-            is_uniform,
+            kind,
         });
     }
     let count = groups.keys().next_back().map_or(0, |last| last + 1);
@@ -102,24 +120,33 @@ mod tests {
         let shader = Shader::new(
             "@group(0) @binding(1) var<uniform> a: vec4f;
              @group(2) @binding(0) var<storage, read_write> b: array<vec4f>;
-             @compute @workgroup_size(64) fn main() { b[0] = a; }",
+             @group(2) @binding(1) var t: texture_2d_array<f32>;
+             @group(2) @binding(2) var s: sampler;
+             @compute @workgroup_size(64) fn main() {
+                 b[0] = a + textureSampleLevel(t, s, a.xy, 0, 0.0);
+             }",
         )
         .unwrap();
         assert_eq!(shader.stages, Stages::Compute("main".to_owned()));
-        let binding = |binding, is_uniform| Binding {
-            binding,
-            is_uniform,
-        };
-        let groups = [vec![binding(1, true)], vec![], vec![binding(0, false)]];
+        let binding = |binding, kind| Binding { binding, kind };
+        let groups = [
+            vec![binding(1, Kind::Uniform)],
+            vec![],
+            vec![
+                binding(0, Kind::Storage),
+                binding(1, Kind::Texture),
+                binding(2, Kind::Sampler),
+            ],
+        ];
         assert_eq!(shader.groups, groups);
     }
 
     #[test]
     fn other_shaders_are_refused() {
         let none = "fn f() {}";
-        let texture = "@group(0) @binding(0) var t: texture_2d<f32>;
+        let texture = "@group(0) @binding(0) var t: texture_storage_2d<rgba8unorm, write>;
              @compute @workgroup_size(64) fn main() { _ = textureDimensions(t); }";
-        for (wgsl, problem) in [(none, "one kernel"), (texture, "not a buffer")] {
+        for (wgsl, problem) in [(none, "one kernel"), (texture, "no buffer")] {
             let error = Shader::new(wgsl).unwrap_err().to_string();
             assert!(error.contains(problem), "{error}");
         }

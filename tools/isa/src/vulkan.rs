@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use ash::khr::pipeline_executable_properties as properties;
 use ash::vk;
 
-use crate::shader::{Binding, Shader, Stages};
+use crate::shader::{Binding, Kind, Shader, Stages};
 use crate::{Compiled, Error, Statistic};
 
 /// Of the attachment that fragment stages write.
@@ -279,9 +279,11 @@ fn open_device(
 fn layout_binding(binding: Binding) -> vk::DescriptorSetLayoutBinding<'static> {
     vk::DescriptorSetLayoutBinding::default()
         .binding(binding.binding)
-        .descriptor_type(match binding.is_uniform {
-            true => vk::DescriptorType::UNIFORM_BUFFER,
-            false => vk::DescriptorType::STORAGE_BUFFER,
+        .descriptor_type(match binding.kind {
+            Kind::Uniform => vk::DescriptorType::UNIFORM_BUFFER,
+            Kind::Storage => vk::DescriptorType::STORAGE_BUFFER,
+            Kind::Texture => vk::DescriptorType::SAMPLED_IMAGE,
+            Kind::Sampler => vk::DescriptorType::SAMPLER,
         })
         .descriptor_count(1)
         .stage_flags(vk::ShaderStageFlags::ALL)

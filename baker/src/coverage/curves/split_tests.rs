@@ -49,8 +49,8 @@ fn compare(file: &VtexFile, outline: &BezPath, rule: FillRule, area: Rect, clear
         })
         .filter(|line| clip_line(*line, near).is_some())
         .collect();
-    let words = pack(file, &PackOptions::default());
-    let sampler = cpu::Sampler::new(&words);
+    let packed = pack(file, &PackOptions::default());
+    let sampler = cpu::Sampler::new(&packed);
     let mut random = Random(4);
     let (mut compared, mut wrong) = (0, 0);
     for _ in 0..500 {
@@ -175,8 +175,8 @@ fn a_scribble_of_fifty_thousand_segments_is_painted() {
     assert_eq!(provenance.warnings.len(), 1);
     assert_eq!(provenance.warnings[0].code, WarningCode::PathFallback);
     // It is nearly solid; a texel is a 4096th of the canvas.
-    let words = pack(&file, &PackOptions::default());
-    let sampler = cpu::Sampler::new(&words);
+    let packed = pack(&file, &PackOptions::default());
+    let sampler = cpu::Sampler::new(&packed);
     let at = |p: Point| {
         let uv = [p.x / 100.0, p.y / 100.0].map(crate::number::to_f32);
         sampler.sample(uv, [1e-3, 0.0, 0.0, 1e-3])[3]

@@ -76,8 +76,8 @@ fn dense_check(canvas_size: [f64; 2], shape: &Shape, config: &BakeConfig) -> Den
             ..config.clone()
         },
     );
-    let words = pack(&file, &PackOptions::default());
-    let sampler = cpu::Sampler::new(&words);
+    let packed = pack(&file, &PackOptions::default());
+    let sampler = cpu::Sampler::new(&packed);
     let longer = canvas_size[0].max(canvas_size[1]);
     let outline = clean(&shape.outline, longer);
     let truth = Region::new(&outline, shape.fill_rule);

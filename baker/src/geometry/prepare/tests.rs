@@ -347,8 +347,8 @@ fn what_cannot_be_prepared_is_baked_as_drawn() {
     let provenance = file.provenance.as_ref().unwrap();
     assert_eq!(provenance.shapes[0].preparation, Preparation::Failed);
     assert_eq!(provenance.warnings[0].code, WarningCode::PathFallback);
-    let words = pack(&file, &PackOptions::default());
-    let sampler = cpu::Sampler::new(&words);
+    let packed = pack(&file, &PackOptions::default());
+    let sampler = cpu::Sampler::new(&packed);
     let mut random = Random(1);
     for _ in 0..2000 {
         let p = Point::new(random.within(0.0, CANVAS), random.within(0.0, CANVAS));

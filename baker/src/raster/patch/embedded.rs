@@ -234,8 +234,8 @@ mod tests {
         };
         assert_eq!(image.size[0] * 4, image.size[1] * 6, "{:?}", image.size);
         assert_eq!(image.rect_uv, [0.1, 0.2, 0.7, 0.6]);
-        let words = pack(&file, &PackOptions::default());
-        let at = |u: f32, v: f32| cpu::Sampler::new(&words).sample([u, v], [0.0; 4]);
+        let packed = pack(&file, &PackOptions::default());
+        let at = |u: f32, v: f32| cpu::Sampler::new(&packed).sample([u, v], [0.0; 4]);
         assert_eq!(at(0.0999, 0.25), [0.0; 4]);
         // Within a tenth of a texel of its own edges every texel has one colour.
         for (place, [x, y]) in [(0.0, [0, 0]), (1e-4, [0, 0]), (0.05, [0, 3]), (0.5, [5, 2])] {
@@ -274,9 +274,10 @@ mod tests {
             "width='60' height='40' transform='{places}'"
         )));
         assert!(turned.provenance.as_ref().unwrap().warnings.is_empty());
-        let [words, mirrored] = [&upright, &turned].map(|file| pack(file, &PackOptions::default()));
+        let [packed, mirrored] =
+            [&upright, &turned].map(|file| pack(file, &PackOptions::default()));
         for (u, v) in [(0.07, 0.03), (0.21, 0.33), (0.55, 0.12), (0.59, 0.39)] {
-            let seen = cpu::Sampler::new(&words).sample([u, v], [0.0; 4]);
+            let seen = cpu::Sampler::new(&packed).sample([u, v], [0.0; 4]);
             let again = cpu::Sampler::new(&mirrored).sample([1.0 - u, 1.0 - v], [0.0; 4]);
             let near = seen.iter().zip(again).all(|(a, b)| (a - b).abs() < 2e-3);
             assert!(near, "{u} {v}: {seen:?} {again:?}");

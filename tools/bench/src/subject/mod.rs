@@ -14,7 +14,7 @@ use anyhow::{Context as _, Result};
 use vtex_baker::{BakeConfig, Resources};
 use vtex_format::{Image, VtexFile};
 use vtex_shaders::cpu::Sampler;
-use vtex_shaders::{FilterMode, PackOptions, pack};
+use vtex_shaders::{FilterMode, PackOptions, Packed, pack};
 use vtex_testing::corpus;
 
 use crate::timing::{QuerySet, Screen};
@@ -91,8 +91,8 @@ impl Subject {
         self.bc7.get_or_init(|| Bc7::encode(&self.raster))
     }
 
-    /// Packed words.
-    pub(crate) fn words(&self, filter: FilterMode) -> Vec<u32> {
+    /// Words and texels.
+    pub(crate) fn packed(&self, filter: FilterMode) -> Packed {
         pack(
             &self.file,
             &PackOptions {
@@ -162,8 +162,8 @@ fn svg_files(folder: &Path) -> Vec<PathBuf> {
 
 /// Corner of the 8x window whose lookups visit the most entries and segments; the first of equals.
 fn busiest(file: &VtexFile, screen: Screen) -> [f32; 2] {
-    let words = pack(file, &PackOptions::default());
-    let sampler = Sampler::new(&words);
+    let packed = pack(file, &PackOptions::default());
+    let sampler = Sampler::new(&packed);
     let cost = |corner: &[f32; 2]| {
         let set = screen.close(*corner, 1);
         let [width, height] = set.extent_uv();

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, Result};
 use vtex_format::{Limits, VtexFile};
-use vtex_shaders::{PackOptions, pack};
+use vtex_shaders::{PackOptions, Packed, pack};
 
 use super::sfg22::LAYER_SIZE;
 use super::{compared, left_out};
@@ -31,7 +31,7 @@ pub(crate) fn load_table(subjects: &[Subject], effort: Effort) -> Result<Table> 
     let mut table = Table::new("GPU bytes and load time", &columns);
     table.note(format!(
         "Textures with all mips. `[SFG22]`: one RGBA8 layer of {LAYER_SIZE}^2 a shape. `bands`: \
-         bounds, colours, bands and curves of the loop. `vector`: packed words for lookups of \
+         bounds, colours, bands and curves of the loop. `vector`: packed words and texels for lookups of \
          points. Files in KB."
     ));
     table.note(format!(
@@ -55,7 +55,7 @@ pub(crate) fn load_table(subjects: &[Subject], effort: Effort) -> Result<Table> 
 
 fn row(subject: &Subject, texture: &[u8], effort: Effort) -> Result<Vec<Cell>> {
     let file = subject.file.to_bytes()?;
-    let words = pack(&subject.file, &PackOptions::default()).len();
+    let packed = pack(&subject.file, &PackOptions::default());
     let trials = vec![
         Trial::timed(1, || timed(|| ktx2::read(texture))),
         Trial::timed(1, || timed(|| load(&file))),
@@ -69,7 +69,7 @@ fn row(subject: &Subject, texture: &[u8], effort: Effort) -> Result<Vec<Cell>> {
     cells.extend([
         kilobytes(layer * subject.file.shapes.len()),
         kilobytes(subject.bands.bytes()),
-        kilobytes(4 * words),
+        kilobytes(packed.bytes()),
         kilobytes(texture.len()),
         kilobytes(file.len()),
     ]);
@@ -77,7 +77,7 @@ fn row(subject: &Subject, texture: &[u8], effort: Effort) -> Result<Vec<Cell>> {
     Ok(cells)
 }
 
-fn load(file: &[u8]) -> Result<Vec<u32>> {
+fn load(file: &[u8]) -> Result<Packed> {
     let file = VtexFile::parse(file, &Limits::default())?;
     Ok(pack(&file, &PackOptions::default()))
 }

@@ -4,9 +4,10 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
+use vtex_runtime::{GpuVtex, LoadOptions};
 use vtex_shaders::cpu::{LookupCost, Sampler};
 use vtex_shaders::layout::BatchQuery;
-use vtex_shaders::{BindingSlot, FilterMode, PackOptions, fragment, spec_key};
+use vtex_shaders::{FilterMode, PackOptions};
 
 use super::left_out;
 use super::rivals::nothing_kernel;
@@ -30,7 +31,7 @@ pub(crate) fn gpu_tables(
             rest = Some(left_out(&subjects[index..]));
             break;
         }
-        let kernels = gpu_kernels(device, subject);
+        let kernels = gpu_kernels(device, subject)?;
         for set in subject.query_sets(effort.gpu_lookups) {
             let few = set.shorter(FEW_LOOKUPS);
             let batches = [&set, &few].map(|set| (set.len(), device.batch(set)));
@@ -80,18 +81,20 @@ enum Kind {
 }
 
 /// The filter modes and the rivals; `None` where a rival does not take this drawing.
-fn gpu_kernels(device: &Device, subject: &Subject) -> Vec<Option<(Kernel, Kind)>> {
+fn gpu_kernels(device: &Device, subject: &Subject) -> Result<Vec<Option<(Kernel, Kind)>>> {
     let usual = |kernel| Some((kernel, Kind::Usual));
     let slow = |kernel| (kernel, Kind::SlowInSoftware);
     let mut kernels = vec![usual(hardware_kernel(device, &subject.raster))];
-    kernels.extend(FILTERS.map(|(_, filter)| usual(vtex_kernel(device, subject, filter))));
+    for (_, filter) in FILTERS {
+        kernels.push(usual(vtex_kernel(device, subject, filter)?));
+    }
     if device.has_bc7() {
         let textures = 0..BC7_SIZES.len();
         kernels.extend(textures.map(|first| Some(slow(subject.bc7().kernel(device, first)))));
     }
     kernels.push(subject.bands.kernel(device).map(slow));
     kernels.push(usual(nothing_kernel(device)));
-    kernels
+    Ok(kernels)
 }
 
 /// As [`gpu_tables`] for the twin on `threads` threads.
@@ -103,8 +106,8 @@ pub(crate) fn cpu_tables(
     let mut rows = Vec::new();
     for subject in subjects {
         let raster = CpuRaster::new(&subject.raster);
-        let words = FILTERS.map(|(_, filter)| subject.words(filter));
-        let samplers = words.each_ref().map(|words| Sampler::new(words));
+        let packed = FILTERS.map(|(_, filter)| subject.packed(filter));
+        let samplers = packed.each_ref().map(Sampler::new);
         for set in subject.query_sets(effort.cpu_lookups) {
             let queries = set.queries();
             let baseline = || spread(&queries, threads, |query| raster.sample(query));
@@ -153,8 +156,8 @@ pub(crate) fn count_table(subjects: &[Subject], effort: Effort) -> Table {
         let [.., set] = subject.query_sets(effort.cpu_lookups);
         let lookups = set.len() as f64;
         let sum = |filter| {
-            let words = subject.words(filter);
-            let sampler = Sampler::new(&words);
+            let packed = subject.packed(filter);
+            let sampler = Sampler::new(&packed);
             let of = |query: BatchQuery| sampler.cost(query.uv, query.footprint);
             let costs = set.queries().into_iter().map(of);
             costs.fold(LookupCost::default(), std::ops::Add::add)
@@ -165,7 +168,7 @@ pub(crate) fn count_table(subjects: &[Subject], effort: Effort) -> Table {
         table.row(vec![
             Cell::Text(subject.name.clone()),
             Cell::Number(subject.file.layers.len() as f64, 0),
-            kib(4 * subject.words(FilterMode::Point).len()),
+            kib(subject.packed(FilterMode::Point).bytes()),
             kib(subject.raster.mips.iter().map(Vec::len).sum()),
             mean(point.entries, 2),
             mean(point.segments, 2),
@@ -179,22 +182,24 @@ pub(crate) fn count_table(subjects: &[Subject], effort: Effort) -> Table {
     table
 }
 
-pub(super) fn vtex_kernel(device: &Device, subject: &Subject, filter: FilterMode) -> Kernel {
-    let words = subject.words(filter);
-    let words = device.buffer(bytemuck::cast_slice(&words), wgpu::BufferUsages::STORAGE);
-    let options = PackOptions {
+pub(super) fn vtex_kernel(
+    device: &Device,
+    subject: &Subject,
+    filter: FilterMode,
+) -> Result<Kernel> {
+    let pack = PackOptions {
         filter,
         ..PackOptions::default()
     };
-    let evaluator = fragment(
-        &spec_key(&subject.file, &options),
-        BindingSlot {
-            group: 0,
-            binding: 0,
-        },
-    );
+    let options = LoadOptions { pack };
+    let texture = GpuVtex::upload(&device.device, &device.queue, &subject.file, &options)?;
     let bridge = include_str!("../wgsl/vtex.wgsl");
-    device.kernel(&[&evaluator, bridge].concat(), &[words.as_entire_binding()])
+    let resources = [
+        texture.buffer().as_entire_binding(),
+        wgpu::BindingResource::TextureView(texture.texels()),
+        wgpu::BindingResource::Sampler(texture.sampler()),
+    ];
+    Ok(device.kernel(&[&texture.wgsl_fragment(0, 0), bridge].concat(), &resources))
 }
 
 /// Answers all queries on `threads` threads and returns how long that took.

@@ -94,8 +94,8 @@ fn difference(
     let (own, queue) = (&device.device, &device.queue);
     let gpu = BatchSampler::new(own, queue, &subject.file, &options, Trust::Regenerate)?;
     let answers = gpu.sample(queries)?;
-    let words = subject.words(filter);
-    let twin = Sampler::new(&words);
+    let packed = subject.packed(filter);
+    let twin = Sampler::new(&packed);
     let cpu: Vec<[f32; 4]> = queries
         .par_iter()
         .map(|query| twin.sample(query.uv, query.footprint))

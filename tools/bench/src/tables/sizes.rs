@@ -54,7 +54,7 @@ pub(crate) fn size_tables(files: &[PathBuf], resources: &Resources) -> Result<Ve
         ],
     );
     whole.note(
-        "Default options, and `--max-zoom 256`. `unpacked`: all sections before zstd. `on the GPU`: packed words for lookups. `[SFG22]`: one MSDF of \
+        "Default options, and `--max-zoom 256`. `unpacked`: all sections before zstd. `on the GPU`: packed words and texels for lookups. `[SFG22]`: one MSDF of \
          512 x 512 texels and three bytes a shape, as it is in memory. The raster has four bytes a texel \
          and all mips; its PNG has no mips.",
     );
@@ -79,7 +79,7 @@ struct Sizes {
     shapes: u64,
     file: u64,
     high_zoom: u64,
-    words: u64,
+    packed: u64,
     raster: u64,
     png: u64,
     directory: Directory,
@@ -117,7 +117,7 @@ impl Sizes {
             shapes: file.shapes.len() as u64,
             file: bytes.len() as u64,
             high_zoom: high_zoom.len() as u64,
-            words: 4 * pack(&file, &PackOptions::default()).len() as u64,
+            packed: pack(&file, &PackOptions::default()).bytes() as u64,
             raster: levels.map(|level| level_bytes(size, level)).sum(),
             png: pixmap.encode_png().context("cannot encode a PNG")?.len() as u64,
             directory,
@@ -134,7 +134,7 @@ impl Sizes {
             kilobytes(self.file),
             whole(self.directory.bundles.iter().map(|b| b.raw_bytes).sum()),
             kilobytes(self.high_zoom),
-            whole(self.words),
+            whole(self.packed),
             whole(SFG22_SHAPE_BYTES * self.shapes),
             whole(self.raster),
             whole(self.png),

@@ -5,7 +5,7 @@ mod raster;
 
 use vtex_format::{AddressMode, Features, VtexFile};
 use vtex_runtime::{BatchSampler, Gpu, LoadOptions, Trust};
-use vtex_shaders::{PackOptions, cpu};
+use vtex_shaders::{PackOptions, Packed, cpu};
 
 use crate::TruthError;
 use crate::picture::{POINTS, Picture, Shot};
@@ -55,7 +55,7 @@ pub enum Shooter {
     /// On the CPU, with the evaluator in Rust.
     Cpu {
         /// The packed texture.
-        words: Vec<u32>,
+        packed: Packed,
     },
     /// On a GPU, with the evaluator in WGSL.
     Gpu {
@@ -68,7 +68,7 @@ impl Shooter {
     /// Prepares a texture for pictures on the CPU.
     pub fn on_cpu(file: &VtexFile, pack: PackOptions) -> Self {
         Self::Cpu {
-            words: vtex_shaders::pack(file, &pack),
+            packed: vtex_shaders::pack(file, &pack),
         }
     }
 
@@ -91,8 +91,8 @@ impl Shooter {
     /// When the GPU fails.
     pub fn shoot(&self, shot: Shot) -> Result<Picture, TruthError> {
         match self {
-            Self::Cpu { words } => {
-                let sampler = cpu::Sampler::new(words);
+            Self::Cpu { packed } => {
+                let sampler = cpu::Sampler::new(packed);
                 Ok(shot.shoot(|uv, footprint| sampler.sample(uv, footprint)))
             }
             Self::Gpu { sampler } => Ok(shot.shoot_batches(|queries| sampler.sample(queries))?),

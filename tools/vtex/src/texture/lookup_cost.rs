@@ -27,8 +27,8 @@ pub(crate) struct LookupLoad {
 
 /// The cost over points that are spread evenly over the canvas. The same file gives the same result.
 pub(crate) fn lookup_load(file: &VtexFile) -> LookupLoad {
-    let words = pack(file, &PackOptions::default());
-    let sampler = Sampler::new(&words);
+    let packed = pack(file, &PackOptions::default());
+    let sampler = Sampler::new(&packed);
     let (mut entries, mut segments) = (Vec::new(), Vec::new());
     for k in 0..LOOKUPS {
         // Roberts (2018), "The unreasonable effectiveness of quasirandom sequences": R2.

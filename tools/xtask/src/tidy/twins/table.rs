@@ -36,8 +36,8 @@ pub(super) const ONLY_RUST: &[(&str, &[&str], &str)] = &[
     ("gradient.rs", &["is_zero"], "named for readers"),
     (
         "image.rs",
-        &["add"],
-        "the body of a loop of vtex_image_filtered",
+        &["bilinear", "sample"],
+        "the body of a loop of vtex_image_filtered, and what the sampler does",
     ),
     ("picture.rs", &["average", "point"], "parts of vtex_picture"),
     ("picture.rs", &["places"], "for tests and reports"),

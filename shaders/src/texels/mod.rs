@@ -1,0 +1,215 @@
+//! Texels of images in pages, as the layers of one texture array hold them.
+//!
+//! Every mip level of an image is a rectangle of its own, with a border of one texel around it, so
+//! that a bilinear lookup at its sides finds what the address mode asks for (docs/decisions/0020).
+
+mod arrange;
+mod skyline;
+
+use vtex_format::{Image, MAX_MIPS};
+
+pub(crate) use arrange::Place;
+use arrange::arrange;
+
+/// Bytes of a texel.
+const TEXEL_BYTES: usize = 4;
+/// Texels around a level on each side.
+const BORDER: u32 = 1;
+/// Texels along a page at most: what every WebGPU device has. A level that is larger is left out.
+pub const MAX_PAGE_SIDE: u32 = 8192;
+
+/// Pages of one size with the texels of one or more textures. A texel is RGBA8: linear light,
+/// premultiplied, then sRGB-encoded; alpha as it is. So the format with sRGB decoding filters it
+/// correctly.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TexelPages {
+    size: [u32; 2],
+    bytes: Vec<u8>,
+}
+
+/// A level of an image, on its way into a page.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Level<'a> {
+    /// Row by row.
+    pub(crate) texels: &'a [u8],
+    pub(crate) size: [u32; 2],
+    /// Texels that lookups reach, no fewer: the last ones are repeated as far.
+    pub(crate) reach: [u32; 2],
+    /// Axes along which the border shows the other side; along others it repeats the last texel.
+    pub(crate) wraps: [bool; 2],
+}
+
+impl Level<'_> {
+    /// The texel along an axis that shows at `index`, counted from the border.
+    fn shown(&self, index: u32, axis: usize) -> usize {
+        let inside = if self.wraps[axis] {
+            (index + self.reach[axis] - BORDER) % self.reach[axis]
+        } else {
+            index.saturating_sub(BORDER)
+        };
+        inside.min(self.size[axis] - 1) as usize
+    }
+}
+
+impl Default for TexelPages {
+    /// One page of one empty texel.
+    fn default() -> Self {
+        Self::new([1; 2], 1)
+    }
+}
+
+impl TexelPages {
+    fn new(size: [u32; 2], count: usize) -> Self {
+        let texels = size[0] as usize * size[1] as usize;
+        Self {
+            size,
+            bytes: vec![0; TEXEL_BYTES * texels * count],
+        }
+    }
+
+    /// Pages with `levels`, and where the first texel of each lies.
+    pub(crate) fn filled(levels: &[Level<'_>]) -> (Self, Vec<Place>) {
+        let rooms: Vec<[u32; 2]> = levels
+            .iter()
+            .map(|level| level.reach.map(|side| side + 2 * BORDER))
+            .collect();
+        let arranged = arrange(&rooms);
+        let mut pages = Self::new(arranged.page, arranged.count);
+        let inside = |place: Place| Place {
+            corner: place.corner.map(|side| side + BORDER),
+            ..place
+        };
+        let places: Vec<Place> = arranged.places.into_iter().map(inside).collect();
+        for (level, place) in levels.iter().zip(&places) {
+            pages.fill(level, place);
+        }
+        (pages, places)
+    }
+
+    /// Texels along a page, along x and y.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Number of pages, at least one.
+    pub fn count(&self) -> u32 {
+        let count = self.bytes.len() / self.page_bytes();
+        u32::try_from(count).unwrap_or(u32::MAX)
+    }
+
+    /// The texels, page by page and row by row, four bytes each.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    fn page_bytes(&self) -> usize {
+        TEXEL_BYTES * self.size[0] as usize * self.size[1] as usize
+    }
+
+    /// Copies a level and its border.
+    fn fill(&mut self, level: &Level<'_>, place: &Place) {
+        let [width, height] = level.reach.map(|side| side + 2 * BORDER);
+        let row_bytes = TEXEL_BYTES * level.size[0] as usize;
+        for y in 0..height {
+            let from = row_bytes * level.shown(y, 1);
+            let Some(row) = level.texels.get(from..from + row_bytes) else {
+                return;
+            };
+            let [left, top] = place.corner.map(|side| side - BORDER);
+            let mut put = |x: u32, texels: &[u8]| {
+                let at = self.offset(place.page, left + x, top + y);
+                self.bytes[at..at + texels.len()].copy_from_slice(texels);
+            };
+            put(BORDER, row);
+            for x in (0..BORDER).chain(BORDER + level.size[0]..width) {
+                let from = TEXEL_BYTES * level.shown(x, 0);
+                put(x, &row[from..from + TEXEL_BYTES]);
+            }
+        }
+    }
+
+    /// Byte of a texel; places beyond the far sides of the page are their last texels.
+    fn offset(&self, page: u32, x: u32, y: u32) -> usize {
+        let [x, y] = [x.min(self.size[0] - 1), y.min(self.size[1] - 1)].map(|at| at as usize);
+        let texel = y * self.size[0] as usize + x;
+        (page as usize)
+            .saturating_mul(self.page_bytes())
+            .saturating_add(TEXEL_BYTES * texel)
+    }
+
+    /// A texel as it is stored; places beyond the far sides of a page are its last texels. Nothing for a
+    /// page that is not there.
+    pub(crate) fn texel(&self, page: u32, x: u32, y: u32) -> [u8; TEXEL_BYTES] {
+        let from = self.offset(page, x, y);
+        let found = self.bytes.get(from..).and_then(<[u8]>::first_chunk);
+        found.copied().unwrap_or_default()
+    }
+}
+
+/// Levels of `image` that fit a page, the finest first, with the index of the first.
+pub(crate) fn levels_of(image: &Image, wraps: [bool; 2]) -> (u32, Vec<Level<'_>>) {
+    let sized = (0..MAX_MIPS).zip(&image.mips).map(|(level, texels)| Level {
+        texels,
+        size: Image::level_size(image.size, level),
+        // A lookup's place is that in level 0 over a power of two.
+        reach: image.size.map(|side| side.div_ceil(1 << level).max(1)),
+        wraps,
+    });
+    let too_large = |level: &Level<'_>| level.reach.iter().any(|&s| s > MAX_PAGE_SIDE - 2 * BORDER);
+    let levels: Vec<Level<'_>> = sized.skip_while(too_large).collect();
+    let left_out = image.mips.len().min(MAX_MIPS as usize) - levels.len();
+    (u32::try_from(left_out).unwrap_or(u32::MAX), levels)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn level(size: [u32; 2], texels: &[u8], wraps: [bool; 2]) -> Level<'_> {
+        Level {
+            texels,
+            size,
+            reach: size,
+            wraps,
+        }
+    }
+
+    /// Bytes count up from `first`.
+    fn counted(first: u8, texels: u8) -> Vec<u8> {
+        (first..first + 4 * texels).collect()
+    }
+
+    #[test]
+    fn a_border_repeats_the_edge_or_shows_the_other_side() {
+        let texels = counted(0, 6);
+        for wraps in [[false; 2], [true, false], [false, true], [true; 2]] {
+            let (pages, places) = TexelPages::filled(&[level([3, 2], &texels, wraps)]);
+            assert_eq!((pages.size(), pages.count()), ([5, 4], 1));
+            assert_eq!(places[0].corner, [1, 1]);
+            let columns = if wraps[0] {
+                [2, 0, 1, 2, 0]
+            } else {
+                [0, 0, 1, 2, 2]
+            };
+            let rows = if wraps[1] { [1, 0, 1, 0] } else { [0, 0, 1, 1] };
+            let shown = rows.map(|row| columns.map(|column| 4 * (3 * row + column)));
+            let reds = pages.bytes().chunks_exact(4).map(|texel| texel[0]);
+            assert!(reds.eq(shown.into_iter().flatten()), "{wraps:?}");
+        }
+    }
+
+    #[test]
+    fn levels_too_large_for_a_page_are_left_out() {
+        let size = [4 * MAX_PAGE_SIDE, 1];
+        let count = Image::level_count(size);
+        let image = Image {
+            rect_uv: [0.0, 0.0, 1.0, 1.0],
+            size,
+            mips: vec![Vec::new(); count as usize],
+        };
+        let (first, levels) = levels_of(&image, [false; 2]);
+        assert_eq!(first, 3, "8192 texels have no room for a border");
+        assert_eq!(levels.len(), count as usize - 3);
+        assert_eq!(levels[0].size, [MAX_PAGE_SIDE / 2, 1]);
+    }
+}
