@@ -19,6 +19,9 @@ const VTEX_PICTURE_FAR: f32 = 1e30;
 const VTEX_PICTURE_OVERLAP: f32 = f32(VTEX_CELL_OVERLAP) / 16.0;
 // How wide cells are at least, in what the samples of a footprint may be away from its centre.
 const VTEX_PICTURE_WIDTHS: f32 = 2.0;
+// Places are kept three halves of a unit inside the canvas and samples count from one unit on: rounding
+// puts no place beyond it.
+const VTEX_PICTURE_INSIDE: f32 = 2.0 / 3.0;
 // What of its side a cell's clearance is counted in.
 const VTEX_PICTURE_PART: f32 = 1.0 / f32(VTEX_CELL_CLEARANCE_PARTS);
 
@@ -87,8 +90,7 @@ fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
     let p = lookup.uv * vt.cell_from_uv.xy + vt.cell_from_uv.zw;
     let home = floor(p);
     let centre = p - home;
-    // As far as places are kept inside it.
-    let inset = vtex_mapping_inset(vt) * vt.cell_from_uv.xy;
+    let inset = VTEX_PICTURE_INSIDE * vtex_mapping_inset(vt) * vt.cell_from_uv.xy;
     let low = vt.cell_from_uv.zw + inset - home;
     let high = vt.cell_from_uv.xy - 2.0 * inset + low;
     let extent = vtex_rows_extent(axes);
