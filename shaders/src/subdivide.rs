@@ -20,7 +20,7 @@ mod lists;
 mod outline;
 mod tree;
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use vtex_format::{CellWord, Features, VtexFile};
 
@@ -90,7 +90,7 @@ fn divide(
     };
     let uses = Uses::of(file);
     let mut known = Known::of(file);
-    let mut leaves: HashMap<u32, u32> = HashMap::new();
+    let mut leaves: BTreeMap<u32, u32> = BTreeMap::new();
     picture.cells.reserve_exact(file.cells.len());
     for &word in &file.cells {
         let shown = CellWord::decode(word).unwrap_or(CellWord::Empty);

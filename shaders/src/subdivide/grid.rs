@@ -1,6 +1,6 @@
 //! Base cells and blocks: the words that evaluators read for the trees of the file's cells.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::hash;
 use super::tree::Tree;
@@ -304,14 +304,14 @@ pub(super) fn places([columns, rows]: [usize; 2]) -> impl Iterator<Item = [usize
 struct Blocks {
     words: Vec<u32>,
     /// Words of base cells by the hash of their block. Of two with one hash the first is shared.
-    known: HashMap<u64, u32>,
+    known: BTreeMap<u64, u32>,
 }
 
 impl Blocks {
     fn new(base: usize) -> Self {
         Self {
             words: vec![0; base.next_multiple_of(BLOCK_WORDS)],
-            known: HashMap::new(),
+            known: BTreeMap::new(),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The commands of all lists.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use super::commands::{self, Order};
 use super::list::{Arena, List};
@@ -52,7 +52,7 @@ impl Shown {
 pub(super) struct Lists {
     pub(super) commands: Vec<[u32; 4]>,
     /// First commands of lists by the hash of all. Of two with one hash the first is shared.
-    known: HashMap<u64, u32>,
+    known: BTreeMap<u64, u32>,
 }
 
 impl Lists {
