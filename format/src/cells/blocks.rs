@@ -160,6 +160,10 @@ fn waiting_branches(branches: Range<usize>, entries: &[Entry]) -> u32 {
             waiting.push(target);
         }
         most = most.max(waiting.len());
+        // More than may be; to count on would take quadratic time.
+        if most > MAX_BLEND_DEPTH as usize {
+            break;
+        }
     }
     u32::try_from(most).unwrap_or(u32::MAX)
 }

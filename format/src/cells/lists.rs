@@ -2,27 +2,39 @@
 
 use super::cell::{Entry, LAST_BIT, MAX_ENTRIES_PER_CELL};
 
-/// For each entry the number of entries from it to the next last one, both counted; `None` when
-/// there are more than [`MAX_ENTRIES_PER_CELL`] or none is the last. One backward pass, however lists
-/// overlap.
-pub(crate) fn list_lengths(entries: &[u32]) -> Vec<Option<u32>> {
-    let (pairs, _) = entries.as_chunks::<2>();
-    let mut length = None;
-    // From the back each count follows from the one behind it. A count that is too large becomes
-    // `None` and stays so up to the next last entry.
-    let backward = pairs.iter().rev().map(|[head, _]| {
-        length = if head & LAST_BIT != 0 {
-            Some(1)
-        } else {
-            length
-                .map(|behind| behind + 1)
-                .filter(|&all| all <= MAX_ENTRIES_PER_CELL)
-        };
-        length
-    });
-    let mut lengths: Vec<_> = backward.collect();
-    lengths.reverse();
-    lengths
+/// How many entries there are from each to the next last one.
+#[derive(Debug)]
+pub(crate) struct ListLengths {
+    /// Both counted; 0 for none. Small, because a file may hold tens of millions of entries.
+    lengths: Vec<u16>,
+}
+
+impl ListLengths {
+    /// One backward pass, however lists overlap.
+    pub(crate) fn of(entries: &[u32]) -> Self {
+        let (pairs, _) = entries.as_chunks::<2>();
+        let mut lengths = vec![0; pairs.len()];
+        let mut length = 0;
+        // From the back each count follows from the one behind it. A count that is too large becomes
+        // 0 and stays so up to the next last entry.
+        for ([head, _], stored) in pairs.iter().zip(&mut lengths).rev() {
+            length = match length {
+                _ if head & LAST_BIT != 0 => 1,
+                0 => 0,
+                behind if u32::from(behind) < MAX_ENTRIES_PER_CELL => behind + 1,
+                _ => 0,
+            };
+            *stored = length;
+        }
+        Self { lengths }
+    }
+
+    /// `None` where no entry is there; `Some(None)` where more than [`MAX_ENTRIES_PER_CELL`] follow, or
+    /// none is the last.
+    pub(crate) fn at(&self, entry: usize) -> Option<Option<u32>> {
+        let length = self.lengths.get(entry)?;
+        Some((*length > 0).then(|| u32::from(*length)))
+    }
 }
 
 /// The list whose first entry is at `place`; `None` when one of its words has no meaning, or it
@@ -52,7 +64,12 @@ mod tests {
     fn lengths_count_to_the_next_last_entry() {
         let entries = [0, 0, LAST_BIT, 0, 0, 0, 0, 0, LAST_BIT, 0, 0, 0];
         let expected = [Some(2), Some(1), Some(3), Some(2), Some(1), None];
-        assert_eq!(list_lengths(&entries), expected);
+        let lengths = ListLengths::of(&entries);
+        assert_eq!(
+            [0, 1, 2, 3, 4, 5].map(|at| lengths.at(at)),
+            expected.map(Some)
+        );
+        assert_eq!(lengths.at(6), None);
     }
 
     #[test]
@@ -60,8 +77,8 @@ mod tests {
         let most = MAX_ENTRIES_PER_CELL as usize;
         let mut entries = vec![0; 2 * (most + 1)];
         entries[2 * most] = LAST_BIT;
-        let lengths = list_lengths(&entries);
-        assert_eq!(lengths[0], None);
-        assert_eq!(lengths[1], Some(MAX_ENTRIES_PER_CELL));
+        let lengths = ListLengths::of(&entries);
+        assert_eq!(lengths.at(0), Some(None));
+        assert_eq!(lengths.at(1), Some(Some(MAX_ENTRIES_PER_CELL)));
     }
 }

@@ -6,12 +6,16 @@ use crate::cells::blocks::{ListFaultKind, list_blend_depth};
 use crate::cells::cell::{
     CellWord, Entry, EntryKind, LAST_BIT, MAX_COMMANDS, MAX_ENTRIES_PER_CELL, MAX_LIST_COMMANDS,
 };
-use crate::cells::lists::{list_entries, list_lengths};
+use crate::cells::lists::{ListLengths, list_entries};
 use crate::container::issue::{self, Issues};
 use crate::container::tag::Tag;
 use crate::file::texture::VtexFile;
 use crate::records::curve::{CURVE_HEADER_WORDS, CurveHeader};
 use crate::records::image::Image;
+
+/// So many lists whose entries do not fit together are reported. A file may hold thousands that share
+/// their entries, and each takes the time of a whole one.
+const MAX_FAULTY_LISTS: usize = 16;
 
 /// What entries may name.
 pub(super) struct Tables {
@@ -118,9 +122,10 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) {
         let message = format_args!("{} words for {columns} x {rows} cells", file.cells.len());
         issues.add(issue::CELL_COUNT, Tag::CELL, 0, message);
     }
-    let lengths = list_lengths(&file.entries);
+    let lengths = ListLengths::of(&file.entries);
     let mut commands = Commands::of(file);
     let has_controls = has_controls(&file.entries);
+    let mut faulty = 0;
     for (index, &word) in file.cells.iter().enumerate() {
         let offset = 4 * index as u64;
         let mut note = |kind, message: std::fmt::Arguments<'_>| {
@@ -137,7 +142,7 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) {
                 );
             }
             Some(CellWord::List { offset_words }) => {
-                let length = lengths.get(offset_words as usize / 2);
+                let length = lengths.at(offset_words as usize / 2);
                 // An entry is two words: an odd offset names the second of them.
                 match length.filter(|_| offset_words % 2 == 0) {
                     None => note(issue::LIST_OFFSET, format_args!("word {offset_words}")),
@@ -150,8 +155,9 @@ pub(super) fn cells(file: &VtexFile, issues: &mut Issues) {
                         // Lists that overlap could take quadratic time. The bound on all commands,
                         // one at least for each entry, keeps the work linear: past it none is
                         // parsed.
-                        if has_controls && is_new && commands.total <= MAX_COMMANDS {
-                            controls(&file.entries, first, issues);
+                        let parses = has_controls && faulty < MAX_FAULTY_LISTS;
+                        if parses && is_new && commands.total <= MAX_COMMANDS {
+                            faulty += usize::from(!controls(&file.entries, first, issues));
                         }
                     }
                     Some(None) => note(
@@ -175,14 +181,14 @@ fn has_controls(entries: &[u32]) -> bool {
     entries.any(|entry| !entry.kind.draws())
 }
 
-/// The control entries of the list whose first entry is at `first` fit together.
-fn controls(entries: &[u32], first: usize, issues: &mut Issues) {
+/// Whether the control entries of the list whose first entry is at `first` fit together.
+fn controls(entries: &[u32], first: usize, issues: &mut Issues) -> bool {
     // A list with an entry that means nothing has its issue already.
     let Some(list) = list_entries(entries, first) else {
-        return;
+        return false;
     };
     let Err(fault) = list_blend_depth(&list) else {
-        return;
+        return true;
     };
     let kind = match fault.kind {
         ListFaultKind::Branch => issue::LIST_BRANCH,
@@ -193,11 +199,12 @@ fn controls(entries: &[u32], first: usize, issues: &mut Issues) {
     };
     let message = format_args!("entry {} of the list at {first}", fault.entry);
     issues.add(kind, Tag::ENTR, 8 * (first + fault.entry) as u64, message);
+    false
 }
 
 /// Commands of lists, by the entry a list starts with.
 struct Commands {
-    to_the_end: Vec<u64>,
+    to_the_end: Vec<u32>,
     taken: Vec<bool>,
     /// Commands of the lists taken so far, each list once.
     total: u64,
@@ -207,14 +214,16 @@ impl Commands {
     fn of(file: &VtexFile) -> Self {
         let (pairs, _) = file.entries.as_chunks::<2>();
         // From the back, so that lists that overlap take one pass.
-        let mut behind = 0_u64;
+        let mut behind = 0_u32;
         let backward = pairs.iter().rev().map(|&words| {
             let last = words[0] & LAST_BIT != 0;
             behind = if last { 0 } else { behind };
-            behind = behind.saturating_add(entry_commands(file, words));
+            let own = u32::try_from(entry_commands(file, words)).unwrap_or(u32::MAX);
+            // More than 32 bits hold is far more than a list may have.
+            behind = behind.saturating_add(own);
             behind
         });
-        let mut to_the_end: Vec<u64> = backward.collect();
+        let mut to_the_end: Vec<u32> = backward.collect();
         to_the_end.reverse();
         Self {
             taken: vec![false; to_the_end.len()],
@@ -226,7 +235,7 @@ impl Commands {
     /// Commands of a list, and whether it is asked for the first time.
     fn take(&mut self, first: usize) -> (u64, bool) {
         // Invariant: the caller has found the length of this list, so the entry exists.
-        let commands = self.to_the_end[first];
+        let commands = u64::from(self.to_the_end[first]);
         let is_new = !std::mem::replace(&mut self.taken[first], true);
         if is_new {
             self.total = self.total.saturating_add(commands);

@@ -24,10 +24,11 @@ pub struct Limits {
 
 impl Default for Limits {
     /// Generous for real art (the largest of thousands of files bakes to tens of megabytes), small
-    /// beside a machine's memory.
+    /// beside a machine's memory, which loading takes a few times over. A texture of more than half as
+    /// many words fits no storage binding of core WebGPU, 128 MiB.
     fn default() -> Self {
         Self {
-            total_raw_bytes: 1 << 30,
+            total_raw_bytes: 256 << 20,
             meta_bytes: 1 << 20,
             shader_bytes: 16 << 20,
             provenance_bytes: 64 << 20,

@@ -3,7 +3,7 @@
 //! nearly all of them are zero.
 
 use crate::cells::cell::{CELL_TAG_SHIFT, CellWord, EntryKind, KIND_SHIFT};
-use crate::cells::lists::list_lengths;
+use crate::cells::lists::ListLengths;
 use crate::records::curve::CurveHeader;
 
 /// Bits of a cell word that hold an offset.
@@ -49,7 +49,7 @@ fn record_end(curves: &[u32], at: u32) -> u32 {
 
 /// Cells as stored.
 pub(crate) fn stored_cells(cells: &[u32], entries: &[u32]) -> Vec<u32> {
-    let lengths = list_lengths(entries);
+    let lengths = ListLengths::of(entries);
     let mut stored = cells.to_vec();
     let mut expected = 0;
     for word in lists(&mut stored) {
@@ -62,7 +62,7 @@ pub(crate) fn stored_cells(cells: &[u32], entries: &[u32]) -> Vec<u32> {
 
 /// Cells in memory from stored ones.
 pub(crate) fn cells_from_stored(cells: &mut [u32], entries: &[u32]) {
-    let lengths = list_lengths(entries);
+    let lengths = ListLengths::of(entries);
     let mut expected = 0;
     for word in lists(cells) {
         let at = word.wrapping_add(expected) & OFFSET_MASK;
@@ -80,8 +80,8 @@ fn lists(cells: &mut [u32]) -> impl Iterator<Item = &mut u32> {
 }
 
 /// Where a list ends that begins at a word; there itself when none does.
-fn list_end(lengths: &[Option<u32>], at: u32) -> u32 {
-    let length = lengths.get(at as usize / 2).copied().flatten();
+fn list_end(lengths: &ListLengths, at: u32) -> u32 {
+    let length = lengths.at(at as usize / 2).flatten();
     at.wrapping_add(2 * length.unwrap_or(0))
 }
 

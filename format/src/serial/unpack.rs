@@ -116,10 +116,12 @@ pub(crate) fn allocate<T: Pod>(bytes: u64) -> Result<Vec<T>, Refusal> {
     }
     let refuse = || (issue::MEMORY, format!("{bytes} bytes"));
     let count = usize::try_from(bytes / size).map_err(|_| refuse())?;
-    let mut elements = Vec::new();
-    elements.try_reserve_exact(count).map_err(|_| refuse())?;
-    elements.resize(count, T::zeroed());
-    Ok(elements)
+    let mut memory: Vec<T> = Vec::new();
+    memory.try_reserve_exact(count).map_err(|_| refuse())?;
+    drop(memory);
+    // Asked for anew: so the system gives memory that is zero already, and no page of it is written
+    // twice.
+    Ok(vec![T::zeroed(); count])
 }
 
 #[cfg(test)]

@@ -1,11 +1,10 @@
 //! The commands that evaluators walk for a list.
 
-use vtex_format::{Entry, EntryKind};
-
 use super::clip::{Clip, Goal};
 use super::group::Group;
+use super::hash;
 use super::list::{Arena, Node, Part};
-use super::outline::{Outline, Segment, Span};
+use super::outline::{Outline, Outlines, Segment, Span};
 use crate::layout::cmd;
 
 /// The last command of an entry holds a base winding of four bits.
@@ -63,29 +62,26 @@ impl Writer<'_> {
         }
     }
 
-    fn draw(&mut self, Part { entry, outline }: &Part) {
-        match outline {
-            None => self.commands.push([entry.data, 0, 0, tag(entry)]),
-            Some(outline) => self.outline(outline, tag(entry)),
+    fn draw(&mut self, part: &Part) {
+        match &part.outline {
+            None => self.commands.push([part.data, 0, 0, part.tag]),
+            Some(outline) => self.outline(outline, part.tag),
         }
     }
 
     /// The commands of an outline, of which the last carries `tag`.
     fn outline(&mut self, outline: &Outline, tag: u32) {
         let first = self.commands.len();
-        let base = outline.base.clamp(-BASE_LIMIT, BASE_LIMIT - 1);
-        self.push_outline(outline, outline.base - base);
+        let outlines = &self.arena.outlines;
+        let lines = lines(outlines, outline);
+        self.commands.extend(lines);
+        let segments = outlines.segments(outline);
+        self.commands.extend(segments.map(|segment| segment.0));
         if self.commands.len() == first {
             self.commands.push([0; 4]);
         }
-        let base = (base.cast_unsigned() << cmd::BASE_RIGHT) >> cmd::BASE_LEFT;
-        let rule = if outline.even_odd {
-            cmd::EVEN_ODD_BIT
-        } else {
-            0
-        };
         if let Some(end) = self.commands.last_mut() {
-            end[3] |= tag | base | rule;
+            end[3] |= tag | end_bits(outline);
         }
     }
 
@@ -138,22 +134,6 @@ impl Writer<'_> {
         self.commands.push([x, y, z, tag]);
     }
 
-    /// `excess` is winding that the last command's base cannot hold.
-    fn push_outline(&mut self, outline: &Outline, excess: i32) {
-        let outlines = &self.arena.outlines;
-        let changes = outlines.changes(outline).iter().copied();
-        for (height, change) in std::iter::once((0, excess)).chain(changes) {
-            let line = Segment {
-                points: [height << 16, height << 16, LOWEST << 16],
-                down: change > 0,
-                line: true,
-            };
-            let lines = (0..change.unsigned_abs()).map(|_| encode(&line));
-            self.commands.extend(lines);
-        }
-        self.commands.extend(outlines.segments(outline).map(encode));
-    }
-
     fn branch(self) {
         let count = self.commands.len();
         for (from, to) in self.branches {
@@ -164,20 +144,56 @@ impl Writer<'_> {
     }
 }
 
-fn tag(entry: &Entry) -> u32 {
-    let opaque = if entry.opaque { cmd::OPAQUE_BIT } else { 0 };
-    let kind = match entry.kind {
-        EntryKind::Msdf => cmd::MSDF,
-        EntryKind::Curves => cmd::CURVES,
-        EntryKind::Image => cmd::IMAGE,
-        _ => cmd::FULL,
+/// What the last command of an outline says of it.
+fn end_bits(outline: &Outline) -> u32 {
+    let base = stored_base(outline);
+    let base = (base.cast_unsigned() << cmd::BASE_RIGHT) >> cmd::BASE_LEFT;
+    let rule = if outline.even_odd {
+        cmd::EVEN_ODD_BIT
+    } else {
+        0
     };
-    (entry.index & cmd::INDEX_MASK) | kind | cmd::END_BIT | opaque
+    base | rule
 }
 
-fn encode(segment: &Segment) -> [u32; 4] {
-    let [a, c, b] = segment.points;
-    let down = if segment.down { cmd::DOWN_BIT } else { 0 };
-    let line = if segment.line { cmd::LINE_BIT } else { 0 };
-    [a, c, b, down | line]
+fn stored_base(outline: &Outline) -> i32 {
+    outline.base.clamp(-BASE_LIMIT, BASE_LIMIT - 1)
+}
+
+/// The lines that stand for changes of the winding beside an outline's segments, and for what of it the
+/// last command's base cannot hold.
+fn lines<'a>(
+    outlines: &'a Outlines,
+    outline: &Outline,
+) -> impl Iterator<Item = [u32; 4]> + use<'a> {
+    let excess = outline.base - stored_base(outline);
+    let changes = outlines.changes(outline).iter().copied();
+    let all = std::iter::once((0, excess)).chain(changes);
+    all.flat_map(|(height, change)| {
+        let points = [height << 16, height << 16, LOWEST << 16];
+        let Segment(line) = Segment::new(points, change > 0, true);
+        (0..change.unsigned_abs()).map(move |_| line)
+    })
+}
+
+/// How many commands [`write`] makes of a list without clips and groups, and their hash.
+pub(super) fn summary(arena: &Arena, nodes: Span) -> (usize, u64) {
+    let (mut count, mut all) = (0, hash::START);
+    for node in &arena.nodes[nodes.range()] {
+        let Node::Draw(part) = node else { continue };
+        let Some(outline) = &part.outline else {
+            count += 1;
+            all = hash::mix(all, u64::from(part.tag) << 32 | u64::from(part.data));
+            continue;
+        };
+        let (mut own, segments) = outline.summary();
+        all = hash::mix(all, segments);
+        for line in lines(&arena.outlines, outline) {
+            own += 1;
+            all = hash::mix(all, hash::of(line));
+        }
+        count += own.max(1);
+        all = hash::mix(all, u64::from(part.tag | end_bits(outline)));
+    }
+    (count, all)
 }

@@ -39,7 +39,7 @@ pub(super) struct Model {
     /// The greatest depth.
     pub(super) max_depth: u32,
     /// Whether every cell with an edge gets it.
-    forced: bool,
+    pub(super) forced: bool,
 }
 
 /// What a depth takes.

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::hash;
 use super::tree::Tree;
 use crate::layout::{cell, has_list};
 
@@ -21,7 +22,7 @@ pub(super) struct Picture {
     /// Columns and rows of the file's cells.
     pub(super) size: [usize; 2],
     /// Each cell's tree, row by row.
-    pub(super) cells: Vec<usize>,
+    pub(super) cells: Vec<u32>,
     /// No two are leaves with the same word.
     pub(super) trees: Vec<Tree>,
     /// Whether blocks have levels coarser than their cells.
@@ -116,7 +117,7 @@ impl Picture {
         let cell = |x: usize, y: usize| {
             // What lies beyond the grid is never read.
             let [x, y] = [x.min(self.size[0] - 1), y.min(self.size[1] - 1)];
-            self.cells[y * self.size[0] + x]
+            self.cells[y * self.size[0] + x] as usize
         };
         if side < 0 {
             let shift = side.unsigned_abs();
@@ -191,6 +192,72 @@ impl Picture {
     fn build(&self, side: Side, depths: &[u32]) -> Option<Grid> {
         let size = self.base_size(side);
         let mut blocks = Blocks::new(size[0] * size[1]);
+        if side <= 0 {
+            self.build_parts(side, &mut blocks)?;
+        } else {
+            self.build_joined(side, depths, &mut blocks)?;
+        }
+        Some(Grid {
+            side,
+            size,
+            words: blocks.words,
+            has_levels: self.has_levels,
+        })
+    }
+
+    /// Base cells that are parts of the file's: each tree's are made once.
+    fn build_parts(&self, side: Side, blocks: &mut Blocks) -> Option<()> {
+        let shift = side.unsigned_abs();
+        let mut known = vec![None; self.trees.len() << (2 * shift)];
+        for (index, [x, y]) in places(self.base_size(side)).enumerate() {
+            let tree = self.cells[(y >> shift) * self.size[0] + (x >> shift)] as usize;
+            let part = [x, y].map(|at| at & ((1 << shift) - 1));
+            let known = &mut known[(tree << shift | part[1]) << shift | part[0]];
+            blocks.words[index] = match *known {
+                Some(word) => word,
+                None => *known.insert(self.part_word(side, tree, part, blocks)?),
+            };
+        }
+        Some(())
+    }
+
+    /// The word of a base cell that is a part of a tree.
+    fn part_word(
+        &self,
+        side: Side,
+        tree: usize,
+        part: [usize; 2],
+        blocks: &mut Blocks,
+    ) -> Option<u32> {
+        let shown = self.trees[tree].part(side.unsigned_abs(), part);
+        if let Some(word) = shown.word() {
+            return Some(word);
+        }
+        let content = Content {
+            trees: vec![tree],
+            part,
+        };
+        self.add_block(side, &content, shown.depth(), blocks)
+    }
+
+    fn add_block(
+        &self,
+        side: Side,
+        content: &Content,
+        depth: u32,
+        blocks: &mut Blocks,
+    ) -> Option<u32> {
+        let mut words = self.block(side, content, depth);
+        for level in levels(side, depth).filter(|_| self.has_levels) {
+            words.extend(self.block(side, content, level));
+        }
+        words.resize(words.len().next_multiple_of(BLOCK_WORDS), 0);
+        blocks.add(depth, &words)
+    }
+
+    /// Base cells of which the file's are parts.
+    fn build_joined(&self, side: Side, depths: &[u32], blocks: &mut Blocks) -> Option<()> {
+        let size = self.base_size(side);
         let mut known = BTreeMap::new();
         for (index, at) in places(size).enumerate() {
             let content = self.content(side, at);
@@ -199,24 +266,14 @@ impl Picture {
                 Err(depth) => match known.get(&content) {
                     Some(&word) => word,
                     None => {
-                        let mut words = self.block(side, &content, depth);
-                        for level in levels(side, depth).filter(|_| self.has_levels) {
-                            words.extend(self.block(side, &content, level));
-                        }
-                        words.resize(words.len().next_multiple_of(BLOCK_WORDS), 0);
-                        let word = blocks.add(depth, &words)?;
+                        let word = self.add_block(side, &content, depth, blocks)?;
                         known.insert(content, word);
                         word
                     }
                 },
             };
         }
-        Some(Grid {
-            side,
-            size,
-            words: blocks.words,
-            has_levels: self.has_levels,
-        })
+        Some(())
     }
 
     /// A level of a block: its `2^depth` rows of as many words.
@@ -246,7 +303,8 @@ pub(super) fn places([columns, rows]: [usize; 2]) -> impl Iterator<Item = [usize
 /// Base cells, and blocks behind them, no two alike.
 struct Blocks {
     words: Vec<u32>,
-    known: BTreeMap<Vec<u32>, u32>,
+    /// Words of base cells by the hash of their block. Of two with one hash the first is shared.
+    known: BTreeMap<u64, u32>,
 }
 
 impl Blocks {
@@ -259,8 +317,17 @@ impl Blocks {
 
     /// The word of a base cell with this block.
     fn add(&mut self, depth: u32, block: &[u32]) -> Option<u32> {
-        if let Some(&word) = self.known.get(block) {
-            return Some(word);
+        let pairs = block.chunks(2).map(|pair| {
+            let word = |at: usize| u64::from(pair.get(at).copied().unwrap_or(0));
+            word(1) << 32 | word(0)
+        });
+        let hash = pairs.fold(u64::from(depth), hash::mix);
+        if let Some(&word) = self.known.get(&hash) {
+            let first = ((word & cell::PLACE_MASK) * cell::BLOCK_WORDS) as usize;
+            let same_depth = word >> cell::DEPTH_SHIFT & cell::DEPTH_MASK == depth;
+            if same_depth && self.words[first..].starts_with(block) {
+                return Some(word);
+            }
         }
         let place = u32::try_from(self.words.len()).ok()? / cell::BLOCK_WORDS;
         if place > cell::PLACE_MASK {
@@ -268,7 +335,7 @@ impl Blocks {
         }
         let word = cell::BLOCK << cell::BLOCK_SHIFT | depth << cell::DEPTH_SHIFT | place;
         self.words.extend(block);
-        self.known.insert(block.to_vec(), word);
+        self.known.entry(hash).or_insert(word);
         Some(word)
     }
 }

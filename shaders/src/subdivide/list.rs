@@ -3,13 +3,19 @@
 use vtex_format::{Block, Entry, EntryKind, MAX_ENTRIES_PER_CELL, OPEN_ISOLATED, list_blocks};
 
 use super::clip::{Branch, Clip};
+use super::commands::{self, Order};
 use super::group::{Group, Mask};
+use super::hash;
 use super::outline::{Outline, Outlines, Span};
+use crate::layout::cmd;
 
 /// An entry that draws, with its outline if it has one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Part {
-    pub(super) entry: Entry,
+    /// Of its last command, without what an outline adds.
+    pub(super) tag: u32,
+    /// First word of the command without an outline.
+    pub(super) data: u32,
     pub(super) outline: Option<Outline>,
 }
 
@@ -27,6 +33,8 @@ pub(super) struct List {
     pub(super) nodes: Span,
     /// The segments of its outlines, perhaps among others.
     places: Span,
+    /// Whether a part of the region can have less to show.
+    pub(super) has_outlines: bool,
 }
 
 /// What the lists of a cell of the file and of its parts are made of. Its memory serves the next cell
@@ -39,6 +47,8 @@ pub(super) struct Arena {
     pub(super) outlines: Outlines,
     /// Nodes of bodies and lists that are not complete.
     pub(super) pending: Vec<Node>,
+    /// Whether there is a clip or group.
+    has_controls: bool,
 }
 
 impl Arena {
@@ -70,6 +80,7 @@ impl Arena {
         } else {
             list_blocks(&entries).unwrap_or_else(|_| ungrouped())
         };
+        self.has_controls = !blocks.iter().all(|block| matches!(block, Block::Draw(_)));
         let place = self.outlines.place_count();
         let entries = &entries;
         let nodes = Stored { entries, curves }.nodes(self, &blocks);
@@ -81,7 +92,27 @@ impl Arena {
         List {
             nodes,
             places: self.outlines.places_from(place),
+            has_outlines: self.has_outlines(nodes),
         }
+    }
+
+    /// How much making the quarters of a list looks at: each segment for two rows and four quarters, and
+    /// each node.
+    pub(super) fn work(list: &List) -> u64 {
+        let (segments, nodes) = (list.places.range().len(), list.nodes.range().len());
+        6 * segments as u64 + 4 * nodes as u64
+    }
+
+    /// How many commands a list has, and their hash.
+    pub(super) fn summary(&self, list: &List, order: Order) -> (usize, u64) {
+        // By the list itself, so that equal lists have equal hashes whatever their cells hold beside.
+        let mut nodes = self.nodes[list.nodes.range()].iter();
+        if !self.has_controls || nodes.all(|node| matches!(node, Node::Draw(_))) {
+            return commands::summary(self, list.nodes);
+        }
+        let mut written = Vec::new();
+        commands::write(self, list.nodes, order, &mut written);
+        (written.len(), hash::of_all(&written))
     }
 
     /// Prepares [`Self::within`] for parts of these heights of the region that the list is for.
@@ -93,9 +124,30 @@ impl Arena {
     pub(super) fn within(&mut self, list: &List, x: [f64; 2]) -> List {
         let place = self.outlines.place_count();
         let first = self.pending.len();
-        self.cut(list.nodes, x);
-        let nodes = self.keep(first);
+        let nodes = if self.has_controls {
+            self.cut(list.nodes, x);
+            self.keep(first)
+        } else {
+            self.cut_parts(list.nodes, x)
+        };
         self.list(nodes, place)
+    }
+
+    /// As [`Self::cut`], for a list without clips and groups. The nodes are complete.
+    fn cut_parts(&mut self, nodes: Span, x: [f64; 2]) -> Span {
+        let first = self.nodes.len();
+        for at in nodes.range() {
+            let Node::Draw(part) = self.nodes[at] else {
+                continue;
+            };
+            if let Some(part) = part.within(&mut self.outlines, x) {
+                self.nodes.push(Node::Draw(part));
+                if part.hides() {
+                    break;
+                }
+            }
+        }
+        Span::from(first, &self.nodes)
     }
 
     /// The pending nodes from `first` on as a body or list.
@@ -118,8 +170,7 @@ impl Arena {
                 Node::Group(group) => group.cut(self, x),
             }
             if let Some(Node::Draw(part)) = self.pending[first..].last()
-                && part.entry.kind == EntryKind::Full
-                && part.entry.opaque
+                && part.hides()
             {
                 break;
             }
@@ -137,9 +188,13 @@ impl Arena {
 
     /// Whether some blocks are composited as one.
     pub(super) fn has_groups(&self, nodes: Span) -> bool {
+        self.has_controls && self.has_groups_in(nodes)
+    }
+
+    fn has_groups_in(&self, nodes: Span) -> bool {
         self.nodes[nodes.range()].iter().any(|node| match node {
             Node::Draw(_) => false,
-            Node::Clip(clip) => self.has_groups(clip.body),
+            Node::Clip(clip) => self.has_groups_in(clip.body),
             Node::Group(_) => true,
         })
     }
@@ -147,13 +202,37 @@ impl Arena {
     /// The paint that fills the region, if nothing else shows.
     pub(super) fn solid(&self, nodes: Span) -> Option<u32> {
         match &self.nodes[nodes.range()] {
-            [Node::Draw(part)] if part.entry.kind == EntryKind::Full => Some(part.entry.index),
+            [Node::Draw(part)] if part.is_full() => Some(part.tag & cmd::INDEX_MASK),
             _ => None,
         }
     }
 }
 
 impl Part {
+    fn of(entry: &Entry, outline: Option<Outline>) -> Self {
+        let opaque = if entry.opaque { cmd::OPAQUE_BIT } else { 0 };
+        let kind = match entry.kind {
+            EntryKind::Msdf => cmd::MSDF,
+            EntryKind::Curves => cmd::CURVES,
+            EntryKind::Image => cmd::IMAGE,
+            _ => cmd::FULL,
+        };
+        Self {
+            tag: (entry.index & cmd::INDEX_MASK) | kind | cmd::END_BIT | opaque,
+            data: entry.data,
+            outline,
+        }
+    }
+
+    fn is_full(&self) -> bool {
+        self.tag & cmd::KIND_MASK == cmd::FULL
+    }
+
+    /// Whether nothing behind it shows.
+    fn hides(&self) -> bool {
+        self.is_full() && self.tag & cmd::OPAQUE_BIT != 0
+    }
+
     fn within(self, outlines: &mut Outlines, x: [f64; 2]) -> Option<Self> {
         let Some(outline) = self.outline else {
             return Some(self);
@@ -161,17 +240,13 @@ impl Part {
         let outline = outlines.within(outline, x);
         if !outline.is_uniform() {
             return Some(Self {
-                entry: self.entry,
                 outline: Some(outline),
+                ..self
             });
         }
-        let full = Entry {
-            kind: EntryKind::Full,
-            data: 0,
-            ..self.entry
-        };
         outline.base_fills().then_some(Self {
-            entry: full,
+            tag: self.tag & !cmd::KIND_MASK | cmd::FULL,
+            data: 0,
             outline: None,
         })
     }
@@ -199,7 +274,7 @@ impl Stored<'_> {
                 let entry = self.entries[*at];
                 let has_record = entry.kind == EntryKind::Curves;
                 let outline = has_record.then(|| self.outline(arena, *at)).flatten();
-                Node::Draw(Part { entry, outline })
+                Node::Draw(Part::of(&entry, outline))
             }
             Block::Clip { branches, body } => {
                 let all = branches.clone().map(|at| {

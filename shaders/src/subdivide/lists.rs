@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use super::commands::{self, Order};
 use super::list::{Arena, List};
-use super::outline::Span;
 use crate::layout::cell;
 
 /// What a cell shows.
@@ -16,16 +15,17 @@ pub(super) enum Shown {
     List {
         /// Of the cell's word.
         tag: u32,
-        /// Of the commands of the cell of the file.
-        commands: Span,
+        /// How the commands lie.
+        order: Order,
+        /// How many commands there are.
+        count: usize,
         /// Of the commands.
         hash: u64,
     },
 }
 
 impl Shown {
-    /// `written` takes the commands.
-    pub(super) fn of(arena: &Arena, list: &List, written: &mut Vec<[u32; 4]>) -> Self {
+    pub(super) fn of(arena: &Arena, list: &List) -> Self {
         if list.nodes.is_empty() {
             return Self::Paint(cell::EMPTY);
         }
@@ -37,12 +37,12 @@ impl Shown {
         } else {
             (cell::LIST, Order::FrontToBack)
         };
-        let first = written.len();
-        commands::write(arena, list.nodes, order, written);
+        let (count, hash) = arena.summary(list, order);
         Self::List {
             tag,
-            commands: Span::from(first, written),
-            hash: hash(&written[first..]),
+            order,
+            count,
+            hash,
         }
     }
 }
@@ -56,40 +56,31 @@ pub(super) struct Lists {
 }
 
 impl Lists {
-    /// The word of a cell, whose commands are among those that were `written`.
-    pub(super) fn word(&mut self, shown: Shown, written: &[[u32; 4]]) -> u32 {
+    /// The word of a cell with this list, which is shown.
+    pub(super) fn word(&mut self, arena: &Arena, list: &List, shown: Shown) -> u32 {
         match shown {
             Shown::Paint(word) => word,
             Shown::List {
-                tag,
-                commands,
-                hash,
+                tag, order, hash, ..
             } => {
-                let place = self.place(&written[commands.range()], hash);
+                let place = self.place(arena, list, order, hash);
                 tag << cell::TAG_SHIFT | place.min(cell::PAYLOAD_MASK)
             }
         }
     }
 
-    fn place(&mut self, commands: &[[u32; 4]], hash: u64) -> u32 {
-        let next = u32::try_from(self.commands.len()).unwrap_or(cell::PAYLOAD_MASK);
+    fn place(&mut self, arena: &Arena, list: &List, order: Order, hash: u64) -> u32 {
+        let first = self.commands.len();
+        let next = u32::try_from(first).unwrap_or(cell::PAYLOAD_MASK);
+        commands::write(arena, list.nodes, order, &mut self.commands);
         let known = *self.known.entry(hash).or_insert(next);
-        let stored = self.commands.get(known as usize..).unwrap_or(&[]);
+        let (stored, written) = self.commands.split_at(first);
+        let stored = stored.get(known as usize..).unwrap_or(&[]);
         let stored = stored.as_flattened();
-        if known != next && stored.starts_with(commands.as_flattened()) {
+        if known != next && stored.starts_with(written.as_flattened()) {
+            self.commands.truncate(first);
             return known;
         }
-        self.commands.extend(commands);
         next
     }
-}
-
-/// A hash that need not stand up to an adversary: equal ones are compared, or are an estimate.
-fn hash(commands: &[[u32; 4]]) -> u64 {
-    const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
-    let mix = |hash: u64, word: u64| (hash ^ word).wrapping_mul(FACTOR).rotate_left(29);
-    let pair = |low: u32, high: u32| u64::from(high) << 32 | u64::from(low);
-    commands.iter().fold(FACTOR, |hash, &[a, c, b, tag]| {
-        mix(mix(hash, pair(a, c)), pair(b, tag))
-    })
 }

@@ -4,6 +4,9 @@ use std::ops::Range;
 
 use vtex_format::{CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CurveHeader};
 
+use super::hash;
+use crate::layout::cmd;
+
 /// Units by which evaluators' f32 arithmetic may misplace a lookup, with some to spare: a part
 /// serves lookups this far outside it.
 const SLACK_UNITS: f64 = 1.0;
@@ -19,16 +22,11 @@ pub(super) struct Region {
     pub(super) y: [f64; 2],
 }
 
-/// A line or quadratic from its upper to its lower end. A line's control point is its upper end.
+/// A line or quadratic from its upper to its lower end, as evaluators' command: upper end, control
+/// point, lower end, each with x in the low half and y in the high half, and what it is. A line's
+/// control point is its upper end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Segment {
-    /// Upper end, control point, lower end: x in the low half, y in the high half.
-    pub(super) points: [u32; 3],
-    /// Whether the outline runs down along it.
-    pub(super) down: bool,
-    /// Whether it is straight.
-    pub(super) line: bool,
-}
+pub(super) struct Segment(pub(super) [u32; 4]);
 
 /// A range of an arena.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -48,14 +46,16 @@ pub(super) struct Outline {
     changes: Span,
     /// Places of the segments whose sides differ for lookups of the region.
     places: Span,
+    /// Of those segments.
+    hash: u64,
 }
 
 /// What the outlines of a cell of the file and of its parts are made of. Its memory serves the next
 /// cell again.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Outlines {
-    /// Those of the whole cell.
-    segments: Vec<Segment>,
+    /// Those of the whole cell, and a hash of each.
+    segments: Vec<(Segment, u64)>,
     /// For each segment of each outline, which it is.
     places: Vec<u32>,
     changes: Vec<(u32, i32)>,
@@ -101,23 +101,38 @@ impl Region {
 }
 
 impl Segment {
+    pub(super) fn new([upper, control, lower]: [u32; 3], down: bool, line: bool) -> Self {
+        let down = if down { cmd::DOWN_BIT } else { 0 };
+        let line = if line { cmd::LINE_BIT } else { 0 };
+        Self([upper, control, lower, down | line])
+    }
+
     fn point(&self, index: usize) -> [f64; 2] {
-        let word = self.points[index];
+        let word = self.0[index];
         [f64::from(word & 0xffff), f64::from(word >> 16)]
     }
 
     fn top(&self) -> u32 {
-        self.points[0] >> 16
+        self.0[0] >> 16
     }
 
     fn bottom(&self) -> u32 {
-        self.points[2] >> 16
+        self.0[2] >> 16
+    }
+
+    /// By how much the winding right of it differs from that left of it.
+    fn change(&self) -> i32 {
+        if self.0[3] & cmd::DOWN_BIT != 0 {
+            1
+        } else {
+            -1
+        }
     }
 
     /// Where it crosses the height `y`, which its ends bracket.
     fn x_at(&self, y: f64) -> f64 {
         let [[ax, ay], [cx, cy], [bx, by]] = [self.point(0), self.point(1), self.point(2)];
-        if self.line || by <= ay {
+        if self.0[3] & cmd::LINE_BIT != 0 || by <= ay {
             let t = if by > ay { (y - ay) / (by - ay) } else { 0.0 };
             return ax + t * (bx - ax);
         }
@@ -195,30 +210,32 @@ impl Outlines {
         let quads = rest.get(..(header.quad_count * CURVE_QUAD_WORDS) as usize)?;
         let lines = lines.as_chunks::<2>().0.iter().zip(0..);
         let quads = quads.as_chunks::<3>().0.iter().zip(0..);
-        let lines = lines.map(|(&[a, b], index)| Segment {
-            points: [a, a, b],
-            down: index < header.down_line_count,
-            line: true,
+        let lines = lines.map(|(&[a, b], index)| {
+            let down = index < header.down_line_count;
+            Segment::new([a, a, b], down, true)
         });
-        let quads = quads.map(|(&points, index)| Segment {
-            points,
-            down: index < header.down_quad_count,
-            line: false,
+        let quads = quads.map(|(&points, index)| {
+            let down = index < header.down_quad_count;
+            Segment::new(points, down, false)
         });
         let (first, place) = (self.changes.len(), self.places.len());
         let change = |&step: &u32| (step & 0xffff, step.cast_signed() >> 16);
         self.changes.extend(steps.iter().map(change));
         self.changes[first..].sort_unstable();
+        let mut all = hash::START;
         for segment in lines.chain(quads) {
             let index = self.segments.len();
             self.places.push(u32::try_from(index).unwrap_or(u32::MAX));
-            self.segments.push(segment);
+            let hash = hash::of(segment.0);
+            self.segments.push((segment, hash));
+            all = hash::mix(all, hash);
         }
         Some(Outline {
             base: header.base_winding,
             even_odd: header.even_odd,
             changes: Span::from(first, &self.changes),
             places: Span::from(place, &self.places),
+            hash: all,
         })
     }
 
@@ -237,10 +254,12 @@ impl Outlines {
         self.trace.first = places.first;
         self.trace.y = [y[0] - SLACK_UNITS, y[1] + SLACK_UNITS];
         self.trace.x.clear();
-        for &place in &self.places[places.range()] {
-            let extent = self.segments[place as usize].extent(self.trace.y);
-            self.trace.x.push(extent.unwrap_or(NOWHERE));
-        }
+        let (segments, y) = (&self.segments, self.trace.y);
+        let places = &self.places[places.range()];
+        let extents = places
+            .iter()
+            .map(|&place| segments[place as usize].0.extent(y).unwrap_or(NOWHERE));
+        self.trace.x.extend(extents);
     }
 
     /// What of an outline counts between two x, within the heights of [`Self::trace`].
@@ -251,15 +270,18 @@ impl Outlines {
         for at in outline.changes.range() {
             base += self.change(self.changes[at]);
         }
+        let mut hash = hash::START;
         for at in outline.places.range() {
             let [least, greatest] = self.trace.x[at - self.trace.first as usize];
             if greatest < left {
-                let segment = self.segments[self.places[at] as usize];
-                let change = if segment.down { 1 } else { -1 };
+                let (segment, _) = self.segments[self.places[at] as usize];
+                let change = segment.change();
                 base += self.change((segment.top(), change));
                 base += self.change((segment.bottom(), -change));
             } else if least <= right {
-                self.places.push(self.places[at]);
+                let place = self.places[at];
+                self.places.push(place);
+                hash = hash::mix(hash, self.segments[place as usize].1);
             }
         }
         self.join_changes(change);
@@ -268,6 +290,7 @@ impl Outlines {
             even_odd: outline.even_odd,
             changes: Span::from(change, &self.changes),
             places: Span::from(place, &self.places),
+            hash,
         }
     }
 
@@ -314,11 +337,17 @@ impl Outlines {
 
     pub(super) fn segments(&self, outline: &Outline) -> impl Iterator<Item = &Segment> {
         let places = &self.places[outline.places.range()];
-        places.iter().map(|&place| &self.segments[place as usize])
+        let segment = |&place: &u32| &self.segments[place as usize].0;
+        places.iter().map(segment)
     }
 }
 
 impl Outline {
+    /// How many segments it has, and their hash.
+    pub(super) fn summary(&self) -> (usize, u64) {
+        (self.places.range().len(), self.hash)
+    }
+
     /// Whether no lookup of the region meets an edge.
     pub(super) fn is_uniform(&self) -> bool {
         self.places.is_empty() && self.changes.is_empty()

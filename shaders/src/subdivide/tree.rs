@@ -1,7 +1,5 @@
 //! A cell of the file, divided as deep as its content is worth.
 
-use std::collections::BTreeSet;
-
 use super::depth::{self, Model, Sums};
 use super::dilated;
 use super::grid::is_level;
@@ -9,6 +7,10 @@ use super::list::{Arena, List};
 use super::lists::{Lists, Shown};
 use super::outline::Region;
 use crate::layout::{FilterMode, cell, has_list};
+
+/// What dividing one list may look at, as [`Arena::work`] counts: beyond it no further depth is tried. Of
+/// the lists of 276 drawings the one that needs most takes 122,000.
+const MAX_LIST_WORK: u64 = 1 << 20;
 
 /// A square of the picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -91,10 +93,23 @@ pub(super) struct Divider<'a> {
     /// Whether blocks have levels coarser than their cells.
     has_levels: bool,
     model: &'a Model,
+    /// How many segments may still be looked at.
+    work_left: u64,
     /// What the present cell's parts show.
     arena: Arena,
-    commands: Vec<[u32; 4]>,
     parts: Vec<Part>,
+    /// How many parts there are down to each depth, from 0 on.
+    ends: Vec<usize>,
+    stored: Stored,
+}
+
+/// Lists of a cell that are stored.
+#[derive(Clone, Debug, Default)]
+struct Stored {
+    /// Hashes of those that no deeper search changes, ascending.
+    kept: Vec<u64>,
+    /// Those of the present depth.
+    present: Vec<(u64, usize)>,
 }
 
 impl<'a> Divider<'a> {
@@ -104,16 +119,24 @@ impl<'a> Divider<'a> {
         filter: FilterMode,
         has_levels: bool,
         model: &'a Model,
+        work_left: u64,
     ) -> Self {
         Self {
             whole,
             filter,
             has_levels,
             model,
+            work_left,
             arena: Arena::default(),
-            commands: Vec::new(),
             parts: Vec::new(),
+            ends: Vec::new(),
+            stored: Stored::default(),
         }
+    }
+
+    /// How many segments may still be looked at.
+    pub(super) fn work_left(&self) -> u64 {
+        self.work_left
     }
 
     /// Divides a list that `uses` cells show. It starts with the first of `words`.
@@ -125,8 +148,8 @@ impl<'a> Divider<'a> {
         lists: &mut Lists,
     ) -> Tree {
         self.arena.clear();
-        self.commands.clear();
         self.parts.clear();
+        self.ends.clear();
         let list = self.arena.decode(words, curves);
         self.push(list, self.whole);
         self.divide(uses);
@@ -136,7 +159,7 @@ impl<'a> Divider<'a> {
     fn push(&mut self, list: List, region: Region) {
         self.parts.push(Part {
             list,
-            shown: Shown::of(&self.arena, &list, &mut self.commands),
+            shown: Shown::of(&self.arena, &list),
             region,
             quarters: None,
         });
@@ -146,38 +169,50 @@ impl<'a> Divider<'a> {
     fn divide(&mut self, uses: usize) {
         // Of what has no outline the same list serves all parts.
         let mut settled = Sums::default();
-        let mut kept = BTreeSet::new();
-        let mut front = vec![0];
+        self.stored.kept.clear();
         let mut share = 1.0;
-        let mut sums = settled.with(&self.parts, &front, share, &kept);
+        let mut sums = self.stored.with(settled, &self.parts, 0..1, share);
         let mut search = self.model.search(sums, uses);
-        let mut levels = Vec::new();
+        let mut work_left = match self.model.forced {
+            true => u64::MAX,
+            false => self.work_left.min(MAX_LIST_WORK),
+        };
+        // The parts of the present depth.
+        let mut front = 0..1;
         for depth in 1..=self.model.max_depth {
-            let length = self.parts.len();
-            let has_outlines = |at: &usize| self.arena.has_outlines(self.parts[*at].list.nodes);
-            let (outlined, plain): (Vec<usize>, Vec<usize>) =
-                front.iter().partition(|at| has_outlines(at));
-            settled = settled.with(&self.parts, &plain, share, &kept);
-            kept.extend(hashes(&self.parts, &plain));
-            if outlined.is_empty() || !search.promises(depth, settled, sums) {
+            let parts = &self.parts;
+            let is_plain = |at: &usize| !parts[*at].list.has_outlines;
+            let plain = front.clone().filter(is_plain);
+            settled = self.stored.with(settled, parts, plain, share);
+            self.stored.keep();
+            let outlined = parts[front.clone()].iter().map(|part| &part.list);
+            let work = outlined.filter(|list| list.has_outlines).map(Arena::work);
+            let work: u64 = work.sum();
+            if work == 0 || !search.promises(depth, settled, sums) {
                 break;
             }
+            let Some(left) = work_left.checked_sub(work) else {
+                break;
+            };
+            work_left = left;
+            self.work_left = self.work_left.saturating_sub(work);
             share *= 0.25;
-            for &at in &outlined {
-                self.quarter(at);
+            let length = self.parts.len();
+            for at in front {
+                if self.parts[at].list.has_outlines {
+                    self.quarter(at);
+                }
             }
-            levels.push((length, outlined));
-            front = (length..self.parts.len()).collect();
-            sums = settled.with(&self.parts, &front, share, &kept);
+            front = length..self.parts.len();
+            self.ends.push(length);
+            sums = self.stored.with(settled, &self.parts, front.clone(), share);
             if !search.visit(depth, sums) {
                 break;
             }
         }
-        if let Some((length, outlined)) = levels.get(search.best_depth as usize) {
-            self.parts.truncate(*length);
-            for &at in outlined {
-                self.parts[at].quarters = None;
-            }
+        // Beyond the best depth there are no quarters.
+        if let Some(&length) = self.ends.get(search.best_depth as usize) {
+            self.parts.truncate(length);
         }
     }
 
@@ -199,8 +234,8 @@ impl<'a> Divider<'a> {
     /// does: it serves what lies around it as far as the side of its own cell says.
     fn finish(&self, at: usize, depth: u32, lists: &mut Lists) -> Tree {
         let part = &self.parts[at];
-        let Some(first) = part.quarters else {
-            return Tree::Leaf(lists.word(part.shown, &self.commands));
+        let Some(first) = part.quarters.filter(|first| *first < self.parts.len()) else {
+            return Tree::Leaf(lists.word(&self.arena, &part.list, part.shown));
         };
         let quarters = [0, 1, 2, 3].map(|quarter| self.finish(first + quarter, depth + 1, lists));
         let merges = |word: u32| self.filter != FilterMode::Footprint || !has_list(word);
@@ -210,39 +245,46 @@ impl<'a> Divider<'a> {
             }
             _ => Tree::Split {
                 whole: (self.has_levels && is_level(depth))
-                    .then(|| lists.word(part.shown, &self.commands)),
+                    .then(|| lists.word(&self.arena, &part.list, part.shown)),
                 quarters: Box::new(quarters),
             },
         }
     }
 }
 
-impl Sums {
-    /// With the lists of some parts, of which those in `kept` are stored already.
-    fn with(mut self, parts: &[Part], some: &[usize], share: f64, kept: &BTreeSet<u64>) -> Self {
-        let mut new = Vec::new();
-        for &at in some {
-            if let Shown::List { commands, hash, .. } = parts[at].shown {
-                let count = commands.range().len();
-                self.walked += share * depth::count(count);
-                new.push((hash, count));
+impl Stored {
+    /// `sums` with the lists of some parts, of which those that are kept count already.
+    fn with(
+        &mut self,
+        mut sums: Sums,
+        parts: &[Part],
+        some: impl IntoIterator<Item = usize>,
+        share: f64,
+    ) -> Sums {
+        self.present.clear();
+        for at in some {
+            if let Shown::List { count, hash, .. } = parts[at].shown {
+                sums.walked += share * depth::count(count);
+                self.present.push((hash, count));
             }
         }
         // Equal lists are stored once.
-        new.sort_unstable();
-        new.dedup_by_key(|(hash, _)| *hash);
-        new.retain(|(hash, _)| !kept.contains(hash));
-        self.stored += new
-            .iter()
-            .map(|&(_, count)| depth::count(count))
-            .sum::<f64>();
-        self
+        self.present.sort_unstable();
+        self.present.dedup_by_key(|(hash, _)| *hash);
+        let kept = &self.kept;
+        self.present
+            .retain(|(hash, _)| kept.binary_search(hash).is_err());
+        let counts = self.present.iter().map(|&(_, count)| depth::count(count));
+        sums.stored += counts.sum::<f64>();
+        sums
     }
-}
 
-fn hashes(parts: &[Part], some: &[usize]) -> impl Iterator<Item = u64> {
-    some.iter().filter_map(|&at| match parts[at].shown {
-        Shown::List { hash, .. } => Some(hash),
-        Shown::Paint(_) => None,
-    })
+    /// Keeps the lists of the last sums.
+    fn keep(&mut self) {
+        if self.present.is_empty() {
+            return;
+        }
+        self.kept.extend(self.present.iter().map(|(hash, _)| *hash));
+        self.kept.sort_unstable();
+    }
 }

@@ -98,11 +98,11 @@ impl Segment {
 
 /// How a segment lies to a box.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Clipped {
+pub(crate) struct Clipped {
     /// The part in the box, relative to its corner.
-    pub(super) inside: Option<Segment>,
+    pub(crate) inside: Option<Segment>,
     /// Heights, relative to the box's top, between which the segment passes left of the box.
-    pub(super) left: Option<[f64; 2]>,
+    pub(crate) left: Option<[f64; 2]>,
 }
 
 /// A point of the segment: parameter and rounded place.
@@ -114,7 +114,7 @@ struct Cut {
 
 /// Cuts `segment`, which reaches into the box's rows, to the box. Parts above, below and right of
 /// it vanish.
-pub(super) fn clip(segment: &Segment, cell: &CellBox) -> Clipped {
+pub(crate) fn clip(segment: &Segment, cell: &CellBox) -> Clipped {
     let low = cell.origin;
     let high = Point::new(low.x + cell.size, low.y + cell.size);
     // What follows says the same of segments wholly beside the box, at the price of their cuts.

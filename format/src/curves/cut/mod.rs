@@ -10,11 +10,11 @@ mod record;
 
 use std::collections::BTreeMap;
 
-use crate::records::curve::{CurveLattice, MAX_CURVE_SEGMENTS};
+use crate::records::curve::CurveLattice;
 
-use clip::clip;
+pub(crate) use clip::clip;
 pub use clip::{Point, Segment, parameter};
-use record::to_u16;
+pub(crate) use record::{Left, Records, to_u16};
 
 /// A cell's box in units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,14 +79,15 @@ impl CellCurves {
         (self.segments.is_empty() && self.steps.is_empty()).then_some(self.base)
     }
 
-    /// Whether there are more segments than any record holds.
-    pub(crate) fn is_too_much(&self) -> bool {
-        self.segments.len() > 2 * MAX_CURVE_SEGMENTS as usize
-    }
-
     /// The words of the record; `None` when they do not fit one.
     pub fn record(&self, even_odd: bool) -> Option<Vec<u32>> {
-        record::words(self, even_odd)
+        let left = Left {
+            base: self.base,
+            steps: self.steps.iter().map(|(&height, &change)| (height, change)),
+        };
+        let mut words = Vec::new();
+        let fits = Records::default().append(left, &self.segments, even_odd, &mut words);
+        fits.map(|()| words)
     }
 
     fn change(&mut self, height: f64, change: i32, size: f64) {

@@ -1,69 +1,132 @@
 //! The words of one record.
 
-use super::{CellCurves, Point, Segment};
+use std::cmp::Reverse;
+
+use super::{Point, Segment};
 use crate::records::curve::CurveHeader;
 
-/// The record of what a cell holds; `None` when it does not fit.
-pub(super) fn words(curves: &CellCurves, even_odd: bool) -> Option<Vec<u32>> {
-    let of = |curved: bool, direction: i32| {
-        let segments = curves.segments.iter();
-        chained(segments.filter(|s| s.control.is_some() == curved && s.direction == direction))
-    };
-    let [lines, quads] = [false, true].map(|curved| [of(curved, 1), of(curved, -1)]);
-    let count = |n: usize| u32::try_from(n).ok();
-    let header = CurveHeader {
-        line_count: count(lines[0].len() + lines[1].len())?,
-        down_line_count: count(lines[0].len())?,
-        quad_count: count(quads[0].len() + quads[1].len())?,
-        down_quad_count: count(quads[0].len())?,
-        step_count: count(curves.steps.len())?,
-        even_odd,
-        base_winding: curves.base,
-    };
-    let mut words = header.encode()?.to_vec();
-    for (&height, &change) in &curves.steps {
-        let change = i16::try_from(change).ok()?;
-        words.push(u32::from(height) | u32::from(change.cast_unsigned()) << 16);
-    }
-    let line = |s: &Segment| [point(s.start), point(s.end)];
-    words.extend(lines.iter().flatten().flat_map(|s| line(s)));
-    words.extend(quads.iter().flatten().flat_map(|s| quad(s)));
-    Some(words)
+/// What stands left of a box: the winding at its top, and where that changes on its left edge.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Left<I> {
+    pub(crate) base: i32,
+    /// Heights, ascending, and changes, none of them zero.
+    pub(crate) steps: I,
 }
 
-/// Segments in an order in which most start where the one before ends, the topmost of those that
-/// are left beginning a chain; of several with one start the last comes first.
-fn chained<'a>(segments: impl Iterator<Item = &'a Segment>) -> Vec<&'a Segment> {
-    let key = |p: Point| [to_u16(p.y), to_u16(p.x)];
-    let mut sorted: Vec<(&Segment, bool)> = segments.map(|segment| (segment, false)).collect();
-    // Before a stable sort, so that of equal starts the last comes first.
-    sorted.reverse();
-    sorted.sort_by_key(|(segment, _)| key(segment.start));
-    let mut chain: Vec<&Segment> = Vec::with_capacity(sorted.len());
-    let mut topmost = 0;
-    while chain.len() < sorted.len() {
-        let follows = chain.last().and_then(|last| {
-            let at = key(last.end);
-            let first = sorted.partition_point(|(segment, _)| key(segment.start) < at);
-            let here = sorted[first..].iter();
-            let here = here.take_while(|(segment, _)| key(segment.start) == at);
-            let free = here.enumerate().find(|(_, (_, taken))| !taken);
-            free.map(|(place, _)| first + place)
-        });
-        // Never goes back: what lies before it is taken.
-        while follows.is_none() && sorted[topmost].1 {
-            topmost += 1;
+/// A segment of one kind, by where it starts.
+#[derive(Clone, Copy, Debug)]
+struct Start {
+    /// Where: y in the high half, x in the low one.
+    key: u32,
+    /// Its place among the record's segments.
+    place: u32,
+    /// Of the first with its key: how many of that key are taken.
+    taken: u32,
+}
+
+/// Writes records. Its memory serves the next record again.
+#[derive(Debug, Default)]
+pub(crate) struct Records {
+    starts: Vec<Start>,
+}
+
+impl Records {
+    /// Appends the record of what a box holds; `None` when it does not fit one.
+    pub(crate) fn append<I>(
+        &mut self,
+        left: Left<I>,
+        segments: &[Segment],
+        even_odd: bool,
+        words: &mut Vec<u32>,
+    ) -> Option<()>
+    where
+        I: ExactSizeIterator<Item = (u16, i32)>,
+    {
+        let mut counts = [0_u32; 4];
+        for segment in segments {
+            counts[kind(segment)] += 1;
         }
-        let next = &mut sorted[follows.unwrap_or(topmost)];
-        next.1 = true;
-        chain.push(next.0);
+        let header = CurveHeader {
+            line_count: counts[0] + counts[1],
+            down_line_count: counts[0],
+            quad_count: counts[2] + counts[3],
+            down_quad_count: counts[2],
+            step_count: u32::try_from(left.steps.len()).ok()?,
+            even_odd,
+            base_winding: left.base,
+        };
+        words.extend(header.encode()?);
+        for (height, change) in left.steps {
+            let change = i16::try_from(change).ok()?;
+            words.push(u32::from(height) | u32::from(change.cast_unsigned()) << 16);
+        }
+        for (kind, &count) in counts.iter().enumerate() {
+            if count > 0 {
+                self.chain(segments, kind, words)?;
+            }
+        }
+        Some(())
     }
-    chain
+
+    /// Appends the segments of a kind in an order in which most start where the one before ends, the
+    /// topmost of those that are left beginning a chain; of several with one start the last comes
+    /// first.
+    fn chain(&mut self, segments: &[Segment], wanted: usize, words: &mut Vec<u32>) -> Option<()> {
+        self.starts.clear();
+        for (segment, place) in segments.iter().zip(0..) {
+            if kind(segment) == wanted {
+                let (key, taken) = (key(segment.start), 0);
+                self.starts.push(Start { key, place, taken });
+            }
+        }
+        let starts = &mut self.starts;
+        starts.sort_unstable_by_key(|start| (start.key, Reverse(start.place)));
+        let mut topmost = 0;
+        let mut end = None;
+        for _ in 0..starts.len() {
+            let follows = end.and_then(|end| {
+                let first = starts.partition_point(|start| start.key < end);
+                let next = first + starts.get(first)?.taken as usize;
+                (starts.get(next)?.key == end).then_some((first, next))
+            });
+            // Never goes back: what lies before it is taken.
+            let (first, next) = match follows {
+                Some(places) => places,
+                None => free(starts, &mut topmost)?,
+            };
+            starts[first].taken += 1;
+            let segment = &segments[starts[next].place as usize];
+            end = Some(key(segment.end));
+            words.push(point(segment.start));
+            if let Some(control) = segment.control {
+                words.push(point(control));
+            }
+            words.push(point(segment.end));
+        }
+        Some(())
+    }
 }
 
-fn quad(segment: &Segment) -> [u32; 3] {
-    let control = segment.control.unwrap_or(segment.start);
-    [point(segment.start), point(control), point(segment.end)]
+/// The first place of a key, and the first of that key that is not taken, from `first` on.
+fn free(starts: &[Start], first: &mut usize) -> Option<(usize, usize)> {
+    loop {
+        let start = starts.get(*first)?;
+        let next = *first + start.taken as usize;
+        match starts.get(next) {
+            Some(other) if other.key == start.key => return Some((*first, next)),
+            // All of this key are taken.
+            _ => *first = next,
+        }
+    }
+}
+
+/// Lines before quadratics, those that run down before those that run up.
+fn kind(segment: &Segment) -> usize {
+    2 * usize::from(segment.control.is_some()) + usize::from(segment.direction < 0)
+}
+
+fn key(p: Point) -> u32 {
+    u32::from(to_u16(p.y)) << 16 | u32::from(to_u16(p.x))
 }
 
 fn point(p: Point) -> u32 {
@@ -76,6 +139,6 @@ fn point(p: Point) -> u32 {
     clippy::cast_sign_loss,
     reason = "boxes are at most 65535 units wide; a cast saturates"
 )]
-pub(super) fn to_u16(x: f64) -> u16 {
+pub(crate) fn to_u16(x: f64) -> u16 {
     x as u16
 }

@@ -2,21 +2,55 @@
 
 use std::collections::BTreeMap;
 
-use super::{MAX_WORK, OutlineError, RecordParts, StoredOutline, StoredOutlines, StoredSegment};
-use crate::curves::cut::{CellBox, CellCurves, Point, Segment};
-use crate::records::curve::CurveLattice;
+use super::left::Winding;
+use super::{OutlineError, RecordParts, StoredOutline, StoredOutlines, StoredSegment};
+use crate::curves::cut::{CellBox, Left, Point, Records, Segment, clip};
+use crate::records::curve::{CurveLattice, MAX_CURVE_SEGMENTS};
 
 /// What a clip costs beside a comparison of heights.
 const CLIP_WORK: u64 = 16;
+/// Most places at which cutting may look, weighted by what a look costs: about a second of one core.
+/// Of hundreds of real drawings the one that needs most takes 98 million.
+const MAX_WORK: u64 = 1 << 28;
+/// What any file may take, and what more for each segment that it holds: no more than 790 of those
+/// drawings. A few segments that meet thousands of records are refused soon.
+const FREE_WORK: u64 = 1 << 20;
+const SEGMENT_WORK: u64 = 1 << 12;
+
+/// What cutting may take, in the measure of [`work`].
+pub(super) fn budget(stored: &StoredOutlines) -> u64 {
+    let outlines = stored.outlines.iter();
+    let segments: u64 = outlines.map(|outline| outline.segments.len() as u64).sum();
+    (FREE_WORK + SEGMENT_WORK * segments).min(MAX_WORK)
+}
 
 /// Cuts records, keeping for each outline its segments in the row of cells that was last asked for.
 pub(super) struct Cutter<'a> {
     stored: &'a StoredOutlines,
     columns: u32,
     lattice: CurveLattice,
-    rows: Vec<Option<(u32, Vec<Segment>)>>,
+    rows: Vec<Option<Row>>,
     /// What may still be looked at.
     work_left: u64,
+    /// What the present record holds. Its memory serves the next one again.
+    left: Winding,
+    segments: Vec<Segment>,
+    records: Records,
+}
+
+/// An outline in a row of cells.
+struct Row {
+    row: u32,
+    /// The last one that it was cut to.
+    column: u32,
+    /// What reaches into the row, by the smallest x.
+    segments: Vec<Segment>,
+    /// The first segment that lies right of the box.
+    next: usize,
+    /// Those before it that do not lie left of the box as a whole, in the same order.
+    live: Vec<u32>,
+    /// What the others leave of themselves: for all boxes further right the same.
+    passed: Winding,
 }
 
 impl<'a> Cutter<'a> {
@@ -25,58 +59,134 @@ impl<'a> Cutter<'a> {
             stored,
             columns: columns.max(1),
             lattice,
-            rows: vec![None; stored.outlines.len()],
-            work_left: MAX_WORK,
+            rows: stored.outlines.iter().map(|_| None).collect(),
+            work_left: budget(stored),
+            left: Winding::default(),
+            segments: Vec::new(),
+            records: Records::default(),
         }
     }
 
-    /// The words of one record, whose indices have been checked.
-    pub(super) fn record(&mut self, record: &RecordParts) -> Result<Vec<u32>, OutlineError> {
+    /// Appends the words of one record, whose indices have been checked.
+    pub(super) fn record(
+        &mut self,
+        record: &RecordParts,
+        words: &mut Vec<u32>,
+    ) -> Result<(), OutlineError> {
         let (column, row) = (record.cell % self.columns, record.cell / self.columns);
         let flatness = f64::from(self.stored.flatness_units);
         let cell = CellBox::of_cell([column, row], self.lattice, flatness);
-        let mut curves = CellCurves::default();
+        self.left.clear();
+        self.segments.clear();
         let mut even_odd = false;
         for &outline in &record.outlines {
-            self.cut(outline as usize, row, &cell, &mut curves)?;
+            self.cut(outline as usize, [column, row], &cell)?;
             // After each outline, so that memory stays bounded by the largest of them.
-            if curves.is_too_much() {
+            if self.segments.len() > 2 * MAX_CURVE_SEGMENTS as usize {
                 return Err(OutlineError::Overflow);
             }
             even_odd = self.stored.outlines[outline as usize].even_odd;
         }
-        curves.record(even_odd).ok_or(OutlineError::Overflow)
+        self.left.settle();
+        let left = Left {
+            base: self.left.base(),
+            steps: self.left.steps().iter().copied(),
+        };
+        let record = self.records.append(left, &self.segments, even_odd, words);
+        record.ok_or(OutlineError::Overflow)
     }
 
     fn cut(
         &mut self,
         index: usize,
-        row: u32,
+        [column, row]: [u32; 2],
         cell: &CellBox,
-        curves: &mut CellCurves,
     ) -> Result<(), OutlineError> {
         let outline = &self.stored.outlines[index];
-        let known = &mut self.rows[index];
         let mut work = 0;
         // Writers store records row by row, so one row for each outline is enough. Another order is
-        // read as well and counts as more work.
-        if known.as_ref().is_none_or(|(known, _)| *known != row) {
-            work += outline.segments.len() as u64;
-            *known = Some((row, row_segments(outline, cell)));
-        }
-        let segments = known.as_ref().map_or(&[][..], |(_, segments)| segments);
-        work += CLIP_WORK * segments.len() as u64;
+        // read as well; another row counts as more work.
+        let known = match &mut self.rows[index] {
+            Some(known) if known.row == row && known.column <= column => known,
+            Some(known) if known.row == row => {
+                known.rewind();
+                known
+            }
+            known => {
+                work += outline.segments.len() as u64;
+                let known = known.get_or_insert_with(Row::new);
+                known.fill(outline, cell);
+                known
+            }
+        };
+        (known.row, known.column) = (row, column);
+        work += CLIP_WORK * known.segments.len() as u64;
         self.work_left = self.work_left.checked_sub(work).ok_or(OutlineError::Work)?;
-        let right = cell.origin.x + cell.size;
-        // In order of their smallest x: those from here on lie right of the box.
-        for segment in segments.iter().take_while(|s| s.x_min() < right) {
-            curves.add(segment, cell);
-        }
+        known.cut(cell, &mut self.left, &mut self.segments);
         Ok(())
     }
 }
 
-/// What cutting takes when records come row by row, in the measure of [`MAX_WORK`].
+impl Row {
+    fn new() -> Self {
+        Self {
+            row: 0,
+            column: 0,
+            segments: Vec::new(),
+            next: 0,
+            live: Vec::new(),
+            passed: Winding::default(),
+        }
+    }
+
+    /// Takes the segments that reach into a box's rows.
+    fn fill(&mut self, outline: &StoredOutline, cell: &CellBox) {
+        self.segments.clear();
+        self.segments.extend(reaching(outline, cell).map(downward));
+        let x_min = |segment: &Segment| segment.x_min();
+        self.segments.sort_by(|a, b| x_min(a).total_cmp(&x_min(b)));
+        self.rewind();
+    }
+
+    /// Begins again at the leftmost box.
+    fn rewind(&mut self) {
+        self.next = 0;
+        self.live.clear();
+        self.passed.clear();
+    }
+
+    /// Adds the parts in a box, which lies no further left than the one before, and what the parts left
+    /// of it leave.
+    fn cut(&mut self, cell: &CellBox, left: &mut Winding, inside: &mut Vec<Segment>) {
+        let right = cell.origin.x + cell.size;
+        while let Some(segment) = self.segments.get(self.next)
+            && segment.x_min() < right
+        {
+            // Heads of files count segments in 32 bits.
+            self.live.extend(u32::try_from(self.next));
+            self.next += 1;
+        }
+        let (segments, passed) = (&self.segments, &mut self.passed);
+        let mut add = |segment: &Segment, to: &mut Winding| {
+            let clipped = clip(segment, cell);
+            if let Some([top, bottom]) = clipped.left {
+                to.change(top, segment.direction, cell.size);
+                to.change(bottom, -segment.direction, cell.size);
+            }
+            inside.extend(clipped.inside);
+        };
+        self.live.retain(|&at| {
+            let segment = &segments[at as usize];
+            let stays = segment.x_max() > cell.origin.x;
+            add(segment, if stays { &mut *left } else { &mut *passed });
+            stays
+        });
+        passed.tidy();
+        left.join(passed);
+    }
+}
+
+/// What cutting takes when records come row by row, in the measure of [`budget`].
 pub(super) fn work(stored: &StoredOutlines, columns: u32, lattice: CurveLattice) -> u64 {
     let mut cells: BTreeMap<(u32, u32), u64> = BTreeMap::new();
     for record in &stored.records {
@@ -106,13 +216,6 @@ fn reaching<'a>(
         let [a, b] = [segment.from[1], segment.to[1]].map(f64::from);
         a.max(b) > top && a.min(b) < bottom
     })
-}
-
-/// Those segments by their smallest x.
-fn row_segments(outline: &StoredOutline, cell: &CellBox) -> Vec<Segment> {
-    let mut row: Vec<Segment> = reaching(outline, cell).map(downward).collect();
-    row.sort_by(|a, b| a.x_min().total_cmp(&b.x_min()));
-    row
 }
 
 /// From the upper to the lower end.
@@ -164,8 +267,11 @@ mod tests {
             ..stored.clone()
         };
         assert_eq!(work(&both, 2, lattice), cutter.work_left);
-        assert!(cutter.record(&record(1)).is_ok());
-        assert!(cutter.record(&record(1)).is_ok(), "the row is known");
-        assert_eq!(cutter.record(&record(2)), Err(OutlineError::Work));
+        let mut words = Vec::new();
+        assert_eq!(cutter.record(&record(1), &mut words), Ok(()));
+        let again = cutter.record(&record(1), &mut words);
+        assert_eq!(again, Ok(()), "the row is known");
+        let other = cutter.record(&record(2), &mut words);
+        assert_eq!(other, Err(OutlineError::Work));
     }
 }

@@ -4,15 +4,12 @@
 
 mod bits;
 mod cutter;
+mod left;
 pub(crate) mod stream;
 
 use crate::records::curve::CurveLattice;
 use crate::records::meta::Grid;
 use cutter::Cutter;
-
-/// Most places at which cutting may look, weighted by what a look costs: a few seconds of one
-/// core. Real drawings stay a thousand times below; past it a file is refused.
-const MAX_WORK: u64 = 1 << 31;
 
 /// Outlines and where they are cut.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -77,7 +74,7 @@ impl StoredOutlines {
 
     /// Whether readers take the time to cut them; where not, a file must hold the records.
     pub fn is_cuttable(&self, grid: &Grid, lattice: CurveLattice) -> bool {
-        cutter::work(self, grid.size_cells[0], lattice) <= MAX_WORK
+        cutter::work(self, grid.size_cells[0], lattice) <= cutter::budget(self)
     }
 
     /// As [`StoredOutlines::records`], giving up beyond `max_words`.
@@ -91,7 +88,7 @@ impl StoredOutlines {
         let mut cutter = Cutter::new(self, grid.size_cells[0], lattice);
         let mut words = Vec::new();
         for record in &self.records {
-            words.extend(cutter.record(record)?);
+            cutter.record(record, &mut words)?;
             if words.len() as u64 > max_words {
                 return Err(OutlineError::Length);
             }
@@ -145,6 +142,6 @@ pub enum OutlineError {
     #[error("the records have another length")]
     Length,
     /// Cutting would take too long.
-    #[error("there is too much to cut")]
+    #[error("cutting the outlines takes more work than the format grants")]
     Work,
 }

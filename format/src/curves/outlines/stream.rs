@@ -34,7 +34,8 @@ pub(crate) struct Head {
 impl Head {
     /// Memory that reading takes, in bytes, before the words themselves.
     pub(crate) fn memory_bytes(&self) -> u64 {
-        let rows = size_of::<crate::curves::cut::Segment>() as u64;
+        // Of the row that is cut: its segments, a number for each, and two steps.
+        let rows = size_of::<crate::curves::cut::Segment>() as u64 + 20;
         // The head does not say how many outlines there are: at worst one a segment.
         let segment = size_of::<StoredSegment>() as u64 + size_of::<StoredOutline>() as u64;
         // Plus the record's cell and count, held while the planes are read.
