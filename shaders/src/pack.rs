@@ -1,5 +1,8 @@
 //! A file as the words that evaluators read.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use half::f16;
 use vtex_format::{
     AddressMode, Features, Gradient, GradientShape, Image, MAX_MIPS, PaintRecord, SHADER_ABI,
@@ -115,7 +118,9 @@ fn header_words(file: &VtexFile, options: &PackOptions, key: &SpecKey) -> Vec<u3
     }
     put(header::TEXELS_PER_CELL, &[grid.texels_per_cell]);
     if let (Some(canvas), true) = (file.images.first(), key.features & Features::MIPS != 0) {
-        let texels = to_f32(canvas.size[0]) / scale[0];
+        // Texels need not be square, cells are.
+        let [x, y] = [0, 1].map(|axis| to_f32(canvas.size[axis]) / scale[axis]);
+        let texels = (x * y).sqrt();
         put(header::MIP_TEXELS_PER_CELL, &[texels.to_bits()]);
     }
     words
@@ -223,6 +228,8 @@ fn image_words(words: &mut Vec<u32>, images: &[Image]) {
     }
     words.resize(records + images.len() * image::WORDS as usize, 0);
     let halves = TexelHalves::new();
+    // Texels that images share are packed once.
+    let mut places: BTreeMap<_, Vec<u32>> = BTreeMap::new();
     for (index, stored) in images.iter().enumerate() {
         let record = records + index * image::WORDS as usize;
         let put = |at: u32, values: &[u32], words: &mut Vec<u32>| {
@@ -232,11 +239,15 @@ fn image_words(words: &mut Vec<u32>, images: &[Image]) {
         put(image::RECT_UV, &stored.rect_uv.map(f32::to_bits), words);
         put(image::SIZE, &stored.size, words);
         put(image::LEVEL_COUNT, &[word_index(levels.len())], words);
-        for (level, texels) in (image::LEVELS..).zip(levels) {
-            let first = word_index(words.len());
-            put(level, &[first], words);
-            words.extend(texels.chunks_exact(4).flat_map(|texel| halves.words(texel)));
-        }
+        let places = places.entry(Arc::as_ptr(&stored.mips)).or_insert_with(|| {
+            let place = |texels: &Vec<u8>| {
+                let first = word_index(words.len());
+                words.extend(texels.chunks_exact(4).flat_map(|texel| halves.words(texel)));
+                first
+            };
+            levels.iter().map(place).collect()
+        });
+        put(image::LEVELS, places, words);
     }
 }
 

@@ -83,6 +83,8 @@ struct Level {
     /// First word of its texels.
     first: u32,
     size: [u32; 2],
+    /// Sides of the image in its texels: a texel at the end may lie half outside.
+    sides: [f32; 2],
     wraps: [bool; 2],
 }
 
@@ -94,7 +96,7 @@ impl Level {
         let mut weights = [[0.0; 2]; 2];
         for axis in 0..2 {
             let count = to_f32(self.size[axis]);
-            let x = t[axis] * count - 0.5;
+            let x = t[axis] * self.sides[axis] - 0.5;
             let corner = x.floor();
             let f = x - corner;
             weights[axis] = [1.0 - f, f];
@@ -137,7 +139,8 @@ pub(super) fn filtered(
     let full: [u32; 2] = sampler.words(record.wrapping_add(image::SIZE));
     let level = |at: u32| Level {
         first: sampler.word(record.wrapping_add(image::LEVELS).wrapping_add(at)),
-        size: full.map(|side| side.checked_shr(at).unwrap_or(0).max(1)),
+        size: full.map(|side| side.wrapping_sub(1).checked_shr(at).unwrap_or(0) + 1),
+        sides: full.map(|side| to_f32(side) / to_f32(1_u32.checked_shl(at).unwrap_or(1))),
         wraps,
     };
     let at = to_u32(finest);

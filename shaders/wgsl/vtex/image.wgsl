@@ -87,8 +87,9 @@ fn vtex_image_filtered(
     for (var i = 0u; i < VTEX_IMAGE_TAPS * VTEX_IMAGE_PLACES; i += 1u) {
         let here = t + (f32(place) - 0.5 * (count - 1.0)) * apart;
         let at = u32(level) + (tap >> 2u);
-        let row = max(size >> vec2u(at), vec2u(1u));
-        let x = here * vec2f(row) - 0.5;
+        let row = ((size - 1u) >> vec2u(at)) + 1u;
+        // A texel at the end may lie half outside of the image.
+        let x = here * (vec2f(size) / f32(1u << at)) - 0.5;
         let corner = floor(x);
         let step = vec2f(f32(tap & 1u), f32((tap >> 1u) & 1u));
         // The weight of the near texel is 1 - f, that of the far one f.
