@@ -65,7 +65,7 @@ impl Default for BakeConfig {
     fn default() -> Self {
         Self {
             mode: Mode::Auto,
-            mip0_size: 512,
+            mip0_size: 128,
             msdf_size: 1024,
             distance_range_texels: 4.0,
             max_zoom: 64.0,
