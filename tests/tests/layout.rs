@@ -13,17 +13,19 @@ fn key(features: u32) -> SpecKey {
 }
 
 /// Numbers that are no integers; tests of parity hold them against Rust's.
-const FLOATS: [&str; 11] = [
+const FLOATS: [&str; 13] = [
     "VTEX_ROWS_LEAST",
     "VTEX_ROWS_SLACK",
     "VTEX_SAMPLES_SLACK",
     "VTEX_LOOKUP_MOST",
+    "VTEX_MAPPING_LEAST_EXTENT",
     "VTEX_MAPPING_LEAST_UNITS",
     "VTEX_ROWS_ROW",
     "VTEX_ROWS_COLUMN",
     "VTEX_PICTURE_FAR",
     "VTEX_PICTURE_OVERLAP",
     "VTEX_PICTURE_WIDTHS",
+    "VTEX_PICTURE_INSIDE",
     "VTEX_PICTURE_PART",
 ];
 

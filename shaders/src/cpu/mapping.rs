@@ -5,10 +5,13 @@ use vtex_format::Features;
 
 use super::Sampler;
 use super::math::clamp;
-use crate::layout::address::{BORDER, MIRROR, REPEAT};
+use crate::layout::address::{BORDER, CLAMP, MIRROR, REPEAT};
 
 /// Units along the canvas, at least: without curves there are none.
 const LEAST_UNITS: f32 = 131_072.0;
+
+/// In uv: what is smaller is a point.
+const LEAST_EXTENT: f32 = 1e-12;
 
 fn linear(m: &[f32; 6], v: [f32; 2]) -> [f32; 2] {
     [m[0] * v[0] + m[2] * v[1], m[1] * v[0] + m[3] * v[1]]
@@ -31,6 +34,18 @@ pub(super) fn axes(sampler: &Sampler<'_>, axes: [f32; 4]) -> [f32; 4] {
     let first = linear(m, [axes[0], axes[1]]);
     let second = linear(m, [axes[2], axes[3]]);
     [first[0], first[1], second[0], second[1]]
+}
+
+/// Axes in uv, after the matrix. In clamp mode, beyond a side of the canvas all of a footprint shows
+/// what the side does.
+pub(super) fn kept(sampler: &Sampler<'_>, uv: [f32; 2], mut axes: [f32; 4]) -> [f32; 4] {
+    for axis in 0..2 {
+        let clamps = sampler.settings.address[axis] == CLAMP;
+        if clamps && clamp(uv[axis], 0.0, 1.0) != uv[axis] {
+            (axes[axis], axes[axis + 2]) = (0.0, 0.0);
+        }
+    }
+    axes
 }
 
 fn axis(t: f32, mode: u32) -> f32 {
@@ -60,17 +75,31 @@ pub(super) fn address(sampler: &Sampler<'_>, uv: [f32; 2]) -> [f32; 2] {
     })
 }
 
-#[expect(
-    clippy::manual_range_contains,
-    reason = "what is no number is not outside"
-)]
-fn axis_outside(t: f32, mode: u32) -> bool {
-    mode == BORDER && (t < 0.0 || t > 1.0)
+/// How much of `extent` about `t` lies within 0 and 1 in border mode.
+fn axis_share(t: f32, extent: f32, mode: u32) -> f32 {
+    if mode != BORDER {
+        1.0
+    } else if extent < LEAST_EXTENT {
+        if (0.0..=1.0).contains(&t) { 1.0 } else { 0.0 }
+    } else {
+        let inside = (t + 0.5 * extent).min(1.0) - (t - 0.5 * extent).max(0.0);
+        clamp(inside / extent, 0.0, 1.0)
+    }
 }
 
-pub(super) fn outside(sampler: &Sampler<'_>, uv: [f32; 2]) -> bool {
+/// How much of a footprint lies on the canvas in border mode, as if it were upright.
+pub(super) fn share(sampler: &Sampler<'_>, uv: [f32; 2], axes: [f32; 4]) -> f32 {
     let modes = sampler.settings.address;
-    axis_outside(uv[0], modes[0]) || axis_outside(uv[1], modes[1])
+    let wide = sampler.settings.has(Features::FOOTPRINT);
+    let [u, v] = [0, 1].map(|i| {
+        let extent = if wide {
+            axes[i].abs() + axes[i + 2].abs()
+        } else {
+            0.0
+        };
+        axis_share(uv[i], extent, modes[i])
+    });
+    u * v
 }
 
 /// Axes along which the filter of image 0 reaches round to the other side.

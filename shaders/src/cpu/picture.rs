@@ -20,6 +20,9 @@ const FAR: f32 = 1e30;
 const OVERLAP: f32 = cell::OVERLAP as f32 / 16.0;
 /// How wide cells are at least, in what the samples of a footprint may be away from its centre.
 const WIDTHS: f32 = 2.0;
+/// Places are kept three halves of a unit inside the canvas and samples count from one unit on: rounding
+/// puts no place beyond it.
+const INSIDE: f32 = 2.0 / 3.0;
 /// What of its side a cell's clearance is counted in.
 const PART: f32 = 1.0 / cell::CLEARANCE_PARTS as f32;
 
@@ -142,8 +145,7 @@ impl Canvas {
         let s = &sampler.settings;
         let home = p.map(f32::floor);
         let centre = [p[0] - home[0], p[1] - home[1]];
-        // As far as places are kept inside the canvas.
-        let inset = [0, 1].map(|i| mapping::inset(sampler, i) * s.scale[i]);
+        let inset = [0, 1].map(|i| INSIDE * mapping::inset(sampler, i) * s.scale[i]);
         let low = [0, 1].map(|i| s.offset[i] + inset[i] - home[i]);
         let extent = extent(lookup.axes);
         let width = if s.has(Features::GROUPS) {

@@ -2,7 +2,7 @@
 
 use vtex_format::{AddressMode, VtexFile};
 use vtex_shaders::cpu::Sampler;
-use vtex_shaders::{PackOptions, pack};
+use vtex_shaders::{FilterMode, PackOptions, pack};
 
 use crate::builder::{row_of, set_solid};
 use crate::formula;
@@ -88,7 +88,7 @@ fn the_footprint_goes_through_the_matrix() {
     set_list(&mut file, 0, &[(Cover::Edge(2.0), [1.0; 4])]);
     let alpha = |scale: f32, u: f32, width: f32| {
         let options = PackOptions {
-            filter: vtex_shaders::FilterMode::Footprint,
+            filter: FilterMode::Footprint,
             texture_matrix: Some([scale, 0.0, 0.0, scale, 0.0, 0.0]),
             ..PackOptions::default()
         };
@@ -98,4 +98,61 @@ fn the_footprint_goes_through_the_matrix() {
     let (plain, halved) = (alpha(1.0, 0.55, 0.4), alpha(0.5, 1.1, 0.8));
     assert!((plain - halved).abs() < 1e-6, "{plain} and {halved}");
     assert!(plain > 0.55 && plain < 0.75, "on the ramp: {plain}");
+}
+
+/// Beyond a side that it is clamped to, all of a footprint shows the side; along it, it keeps its extent.
+#[test]
+fn beyond_a_side_a_footprint_shows_the_side() {
+    use AddressMode::Clamp;
+    let options = PackOptions {
+        address: Some([Clamp; 2]),
+        filter: FilterMode::Footprint,
+        ..PackOptions::default()
+    };
+    let words = pack(&steps(), &options);
+    let sampler = Sampler::new(&words);
+    let wide = [0.7, 0.0, 0.0, 0.2];
+    for (u, side) in [(-0.1, 0.0), (1.2, 1.0)] {
+        let beyond = sampler.sample([u, 0.5], wide);
+        assert_eq!(beyond, sampler.sample([side, 0.5], [0.0; 4]), "at {u}");
+    }
+    let below = sampler.sample([0.5, 1.3], wide);
+    assert_eq!(below, sampler.sample([0.5, 1.0], [0.7, 0.0, 0.0, 0.0]));
+    assert_ne!(below, sampler.sample([0.5, 1.0], [0.0; 4]));
+}
+
+/// In border mode a footprint sees nothing beyond a side, so the side is smooth; a point is on one side.
+#[test]
+fn a_footprint_smooths_the_side_of_a_border() {
+    use AddressMode::{Border, Clamp};
+    let mut file = row_of(1);
+    set_solid(&mut file, 0, [1.0; 4]);
+    let alpha = |filter, uv: [f32; 2], axes| {
+        let options = PackOptions {
+            address: Some([Border, Clamp]),
+            filter,
+            ..PackOptions::default()
+        };
+        Sampler::new(&pack(&file, &options)).sample(uv, axes)[3]
+    };
+    let table = [
+        (-0.06, [0.1, 0.0, 0.0, 0.1], 0.0),
+        (-0.025, [0.1, 0.0, 0.0, 0.1], 0.25),
+        (0.0, [0.1, 0.0, 0.0, 0.1], 0.5),
+        (0.025, [0.06, 0.0, -0.04, 0.1], 0.75),
+        (0.5, [0.1, 0.0, 0.0, 0.1], 1.0),
+        (1.04, [0.1, 0.0, 0.0, 0.1], 0.1),
+        (0.5, [2.0, 0.0, 0.0, 0.1], 0.5),
+        (1.0, [0.0; 4], 1.0),
+        (1.001, [0.0; 4], 0.0),
+    ];
+    for (u, axes, expected) in table {
+        let found = alpha(FilterMode::Footprint, [u, 0.5], axes);
+        assert!((found - expected).abs() < 1e-5, "{found} at {u}");
+        let point = alpha(FilterMode::Point, [u, 0.5], axes);
+        let inside = (0.0..=1.0).contains(&u);
+        assert_eq!(point, f32::from(u8::from(inside)), "a point at {u}");
+        let below = alpha(FilterMode::Footprint, [0.5, u], axes);
+        assert!((below - alpha(FilterMode::Footprint, [0.5, 0.5], axes)).abs() < 1e-5);
+    }
 }

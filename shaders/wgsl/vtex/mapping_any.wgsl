@@ -4,6 +4,9 @@
 //!use vtex/mapping_inset
 // From the place that a lookup names to the place on the canvas: texture matrix, then address modes.
 
+// In uv: what is smaller is a point.
+const VTEX_MAPPING_LEAST_EXTENT: f32 = 1e-12;
+
 fn vtex_mapping_linear(vt: VtexTexture, v: vec2f) -> vec2f {
     let m = vtex_word_float4(vt, VTEX_HEADER_TEXTURE_MATRIX);
     return vec2f(m.x * v.x + m.z * v.y, m.y * v.x + m.w * v.y);
@@ -39,6 +42,14 @@ fn vtex_mapping_axis(t: f32, mode: u32) -> f32 {
     }
 }
 
+// Axes in uv, after the matrix. In clamp mode, beyond a side of the canvas all of a footprint shows what
+// the side does.
+fn vtex_mapping_kept(vt: VtexTexture, uv: vec2f, axes: vec4f) -> vec4f {
+    let clamps = vt.address == vec2u(VTEX_ADDRESS_CLAMP);
+    let placed = select(uv, clamp(uv, vec2f(0.0), vec2f(1.0)), clamps);
+    return select(vec4f(0.0), axes, (placed == uv).xyxy);
+}
+
 fn vtex_mapping_address(vt: VtexTexture, uv: vec2f) -> vec2f {
     let inset = vtex_mapping_inset(vt);
     let u = vtex_mapping_axis(uv.x, vt.address.x);
@@ -46,14 +57,21 @@ fn vtex_mapping_address(vt: VtexTexture, uv: vec2f) -> vec2f {
     return clamp(vec2f(u, v), inset, 1.0 - inset);
 }
 
-fn vtex_mapping_axis_outside(t: f32, mode: u32) -> bool {
-    return mode == VTEX_ADDRESS_BORDER && (t < 0.0 || t > 1.0);
+// How much of `extent` about `t` lies within 0 and 1 in border mode.
+fn vtex_mapping_axis_share(t: f32, extent: f32, mode: u32) -> f32 {
+    let inside = min(t + 0.5 * extent, 1.0) - max(t - 0.5 * extent, 0.0);
+    let share = clamp(inside / max(extent, VTEX_MAPPING_LEAST_EXTENT), 0.0, 1.0);
+    let placed = select(0.0, 1.0, t >= 0.0 && t <= 1.0);
+    let bordered = select(share, placed, extent < VTEX_MAPPING_LEAST_EXTENT);
+    return select(1.0, bordered, mode == VTEX_ADDRESS_BORDER);
 }
 
-// By axis: naga does not read its own SPIR-V back where `&` and `|` join vectors of bool.
-fn vtex_mapping_outside(vt: VtexTexture, uv: vec2f) -> bool {
-    return vtex_mapping_axis_outside(uv.x, vt.address.x)
-        || vtex_mapping_axis_outside(uv.y, vt.address.y);
+// How much of a footprint lies on the canvas in border mode, as if it were upright.
+fn vtex_mapping_share(vt: VtexTexture, uv: vec2f, axes: vec4f) -> f32 {
+    let wide = vtex_settings_has(vt, VTEX_FEATURE_FOOTPRINT);
+    let extent = select(vec2f(0.0), abs(axes.xy) + abs(axes.zw), vec2<bool>(wide));
+    return vtex_mapping_axis_share(uv.x, extent.x, vt.address.x)
+        * vtex_mapping_axis_share(uv.y, extent.y, vt.address.y);
 }
 
 // Axes along which the filter of image 0 reaches round to the other side.

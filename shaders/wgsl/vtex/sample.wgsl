@@ -11,11 +11,14 @@
 fn vtex_sample_at(first: u32, uv: vec2f, footprint: vec4f) -> vec4f {
     let vt = vtex_texture(first);
     let moved = vtex_mapping_point(vt, uv);
-    if vtex_mapping_outside(vt, moved) {
+    let region = vtex_mapping_axes(vt, footprint);
+    let share = vtex_mapping_share(vt, moved, region);
+    // Also where it is no number.
+    if !(share > 0.0) {
         return vec4f(0.0);
     }
     let place = vtex_mapping_address(vt, moved);
-    let lookup = vtex_lookup(vt, place, vtex_mapping_axes(vt, footprint));
-    let color = vtex_minify(vt, lookup);
+    let lookup = vtex_lookup(vt, place, vtex_mapping_kept(vt, moved, region));
+    let color = share * vtex_minify(vt, lookup);
     return select(color, vec4f(color.a), vtex_settings_has(vt, VTEX_FEATURE_MASK));
 }
