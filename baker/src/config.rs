@@ -9,8 +9,8 @@ use vtex_format::AddressMode;
 use crate::BakeError;
 
 /// Pixels along the canvas' longer side at zoom 1. Zoom is a number the caller can picture only if
-/// it means pixels; 512 is the default size of mip 0.
-const PIXELS_AT_ZOOM_1: f64 = 512.0;
+/// it means pixels.
+pub(crate) const PIXELS_AT_ZOOM_1: f64 = 512.0;
 
 /// Which coverage kinds a bake may use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -31,7 +31,7 @@ pub enum Mode {
 pub struct BakeConfig {
     /// Kinds of coverage.
     pub mode: Mode,
-    /// Texels along the longer side of mip 0.
+    /// Texels along the longer side of mip 0; the nearest power of two is taken.
     pub mip0_size: u32,
     /// Texels of the MSDF lattice along the canvas' longer side, at most.
     pub msdf_size: u32,
@@ -65,7 +65,7 @@ impl Default for BakeConfig {
     fn default() -> Self {
         Self {
             mode: Mode::Auto,
-            mip0_size: 512,
+            mip0_size: 128,
             msdf_size: 1024,
             distance_range_texels: 4.0,
             max_zoom: 64.0,

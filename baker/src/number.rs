@@ -16,6 +16,11 @@ pub(crate) fn floor_index(x: f64) -> usize {
     x.floor() as usize
 }
 
+/// As [`floor_index`], for the sides of pictures and grids.
+pub(crate) fn floor_u32(x: f64) -> u32 {
+    u32::try_from(floor_index(x)).unwrap_or(u32::MAX)
+}
+
 /// A number of things in memory, exact because there are fewer than 2^52.
 #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
 pub(crate) fn count(n: usize) -> f64 {

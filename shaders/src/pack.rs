@@ -1,5 +1,8 @@
 //! A file as the words that evaluators read.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use vtex_format::{
     AddressMode, Features, Gradient, GradientShape, PaintRecord, SHADER_ABI, SamplerSettings,
     SpecKey, VtexFile,
@@ -160,7 +163,9 @@ fn header_words(file: &VtexFile, options: &PackOptions, key: &SpecKey) -> Vec<u3
     }
     put(header::TEXELS_PER_CELL, &[grid.texels_per_cell]);
     if let (Some(canvas), true) = (file.images.first(), key.features & Features::MIPS != 0) {
-        let texels = to_f32(canvas.size[0]) / scale[0];
+        // Texels need not be square, cells are.
+        let [x, y] = [0, 1].map(|axis| to_f32(canvas.size[axis]) / scale[axis]);
+        let texels = (x * y).sqrt();
         put(header::MIP_TEXELS_PER_CELL, &[texels.to_bits()]);
     }
     words
@@ -298,15 +303,21 @@ fn image_levels<'a>(
     let address = options.applied_to(&file.meta.sampler).address;
     let repeats = address.map(|mode| mode == AddressMode::Repeat);
     let has_canvas = spec_key(file, options).features & Features::MIPS != 0;
+    // Texels that images share are packed once.
+    let mut packed = BTreeMap::new();
     let images = file.images.iter().enumerate().map(|(index, stored)| {
         let is_canvas = index == 0 && has_canvas;
         let wraps = if is_canvas { repeats } else { [false; 2] };
-        let (_, own) = levels_of(stored, wraps);
-        let from = levels.len();
-        levels.extend(own);
+        let texels = (Arc::as_ptr(&stored.mips), wraps);
+        let own = packed.entry(texels).or_insert_with(|| {
+            let (_, own) = levels_of(stored, wraps);
+            let from = levels.len();
+            levels.extend(own);
+            from..levels.len()
+        });
         Unplaced {
             places: records + index * image::WORDS as usize + image::LEVELS as usize,
-            levels: from..levels.len(),
+            levels: own.clone(),
         }
     });
     images.collect()

@@ -1,5 +1,7 @@
 //! Random textures: every feature a packed texture can have, without a baker.
 
+use std::sync::Arc;
+
 use vtex_format::{
     AddressMode, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CellWord, CurveHeader, CurveLattice,
     DistanceOutline, Entry, EntryKind, Features, Gradient, GradientShape, GradientStop, Grid,
@@ -284,11 +286,10 @@ fn random_image(r: &mut Random, rect_uv: [f32; 4], size: [u32; 2], least_alpha: 
         };
         (0..width * height).flat_map(texel).collect()
     });
-    let mips = mips.collect();
     Image {
         rect_uv,
         size,
-        mips,
+        mips: Arc::new(mips.collect()),
     }
 }
 

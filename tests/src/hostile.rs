@@ -257,8 +257,8 @@ fn entr512() -> Vec<u8> {
 }
 
 fn img14k() -> Vec<u8> {
-    let (side, levels) = (14_100_u32, 14);
-    let level_bytes = |level: u32| 4 * ((side >> level) as usize).pow(2);
+    let (side, levels) = (14_100_u32, 15);
+    let level_bytes = |level: u32| 4 * (side.div_ceil(1 << level) as usize).pow(2);
     // Levels of at most 64 texels share a section.
     let small: usize = (8..levels).map(level_bytes).sum();
     let lengths = [small].into_iter().chain((0..8).rev().map(level_bytes));

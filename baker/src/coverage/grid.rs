@@ -3,7 +3,7 @@
 use kurbo::{Affine, Rect};
 use vtex_format::{Grid, MAX_TEXELS_PER_CELL};
 
-use crate::number::{floor_index, to_f32};
+use crate::number::{self, to_f32};
 
 /// Texels along a cell, unless the grid would then leave [`MIN_CELLS`]..=[`MAX_CELLS`]. Small cells
 /// mean short lists but many tiles. Measured on the Tiger at 1024 texels for 4, 6 and 8: 970, 905
@@ -46,21 +46,17 @@ impl Lattice {
 
     /// The lattice of a drawing whose shapes are all curves. There are no texels then: `msdf_size`
     /// only sets the length of a step.
-    pub(crate) fn for_curves(canvas_size: [f64; 2], msdf_size: u32, mip0_size: u32) -> Self {
-        // A record has a margin of at most one cell, which is to hold half a texel of mip 0 (see
-        // `scales`): so cells are no smaller than those texels.
-        let cells = CURVE_CELLS.min(mip0_size.max(1));
-        Self::with_cells(canvas_size, msdf_size, cells)
+    pub(crate) fn for_curves(canvas_size: [f64; 2], msdf_size: u32) -> Self {
+        Self::with_cells(canvas_size, msdf_size, CURVE_CELLS)
     }
 
     /// The lattice with cells of half the side, or `None` when cells cannot be smaller.
-    pub(crate) fn halved(&self, canvas_size: [f64; 2], mip0_size: u32) -> Option<Self> {
+    pub(crate) fn halved(&self, canvas_size: [f64; 2]) -> Option<Self> {
         let [columns, rows] = self.grid.cell_from_uv_scale;
         // The longer side has a whole number of cells, so the larger scale is that number.
         let cells = 2 * floor_u32(columns.max(rows));
         let unit = self.grid.texels_per_cell.div_ceil(2);
-        (cells <= MAX_CELLS.min(mip0_size))
-            .then(|| Self::with_cells(canvas_size, unit * cells, cells))
+        (cells <= MAX_CELLS).then(|| Self::with_cells(canvas_size, unit * cells, cells))
     }
 
     fn with_cells(canvas_size: [f64; 2], msdf_size: u32, cells: u32) -> Self {
@@ -126,7 +122,7 @@ impl Lattice {
             let end = f64::from(size);
             let (low, high) = (low / n, high / n);
             let meets = low < end && high >= 0.0;
-            meets.then(|| [low, high].map(|x| to_cells_f64(x.clamp(0.0, end - 1.0))))
+            meets.then(|| [low, high].map(|x| number::floor_u32(x.clamp(0.0, end - 1.0))))
         };
         let columns = axis(area.x0, area.x1, self.grid.size_cells[0])?;
         let rows = axis(area.y0, area.y1, self.grid.size_cells[1])?;
@@ -157,10 +153,6 @@ fn to_cells(x: f32) -> u32 {
 )]
 fn floor_u32(x: f32) -> u32 {
     x as u32
-}
-
-fn to_cells_f64(x: f64) -> u32 {
-    u32::try_from(floor_index(x)).unwrap_or(u32::MAX)
 }
 
 #[cfg(test)]

@@ -3,9 +3,6 @@
 //! Lookups in paper mode see the edge of an MSDF from some distance: its coverage falls from 1 to 0
 //! over a *ramp* around it, and the distance outline lies outside it. A cell must list every shape
 //! whose ramp or outline extends into it. Other lookups see an edge where it is.
-//!
-//! The margin is at least half a texel of mip 0, as footprint mode needed before decision 0016.
-//! Curves could do with that of rounding alone.
 
 use crate::{config::BakeConfig, coverage::grid::Lattice, number::to_f32};
 
@@ -37,19 +34,17 @@ pub(crate) struct Scales {
 }
 
 impl Scales {
-    /// The distances of a bake on `lattice`.
-    pub(crate) fn new(config: &BakeConfig, lattice: &Lattice) -> Self {
-        // Half a texel of mip 0, the largest footprint that cells answer.
-        let ramp = 0.5 * lattice.longer_steps() / f64::from(config.mip0_size.max(1));
+    /// The distances of a bake.
+    pub(crate) fn new(config: &BakeConfig) -> Self {
         let outline = f64::from(config.outline_texels.unwrap_or(0.0));
-        // Half the range must hold the ramp and the distance outline: beyond it texels are clamped.
-        let needed = 2.0 * (outline + ramp + ROUNDING_MARGIN);
+        // Half the range must hold the distance outline: beyond it texels are clamped.
+        let needed = 2.0 * (outline + ROUNDING_MARGIN);
         let range = f64::from(to_f32(needed.max(f64::from(config.distance_range_texels))));
         let smoothing = f64::from(config.smoothing) * range;
         Self {
             range,
             distances: Distances {
-                margin: outline + ramp.max(smoothing) + ROUNDING_MARGIN,
+                margin: outline + smoothing + ROUNDING_MARGIN,
                 max_distance: 0.5 * range + DISTANCE_BEYOND_RANGE,
             },
             longer_side_px: config.longer_side_px(),

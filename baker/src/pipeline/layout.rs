@@ -66,7 +66,7 @@ struct Attempt {
 
 impl Attempt {
     fn new(drawing: &Drawing, verdicts: &[Verdict], config: &BakeConfig, lattice: Lattice) -> Self {
-        let scales = Scales::new(config, &lattice);
+        let scales = Scales::new(config);
         let placed = place(drawing, &lattice, verdicts);
         let covers = cover(&placed, &lattice, &scales);
         Self {
@@ -82,16 +82,16 @@ impl Attempt {
 /// room for the outlines, as far as [`MAX_CUT_SEGMENTS`] allows; with MSDFs the judge has decided
 /// the size.
 fn place_on_grid(drawing: &Drawing, judgement: &Judgement, config: &BakeConfig) -> Attempt {
-    let (canvas_size, mip0_size) = (drawing.canvas_size, config.mip0_size);
+    let canvas_size = drawing.canvas_size;
     let msdf_size = judgement.msdf_size;
     let on = |lattice| Attempt::new(drawing, &judgement.verdicts, config, lattice);
     if !judgement.all_curves(&drawing.items) {
         return on(Lattice::new(canvas_size, msdf_size));
     }
-    let mut attempt = on(Lattice::for_curves(canvas_size, msdf_size, mip0_size));
+    let mut attempt = on(Lattice::for_curves(canvas_size, msdf_size));
     // An outline that is too much for one cell may fit into smaller ones.
     while attempt.covers.iter().any(Result::is_err) {
-        let halved = attempt.lattice.halved(canvas_size, mip0_size);
+        let halved = attempt.lattice.halved(canvas_size);
         let Some(halved) =
             halved.filter(|halved| cut_segments(&attempt.placed, halved) <= MAX_CUT_SEGMENTS)
         else {

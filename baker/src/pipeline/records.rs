@@ -1,5 +1,8 @@
 //! Filling the file's records from the results of all stages.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use kurbo::{Rect, Shape as _};
 use vtex_format::{
     COVERAGE_CURVES, COVERAGE_IMAGE, COVERAGE_MSDF, CurveLattice, DistanceOutline, FILL_EVEN_ODD,
@@ -164,5 +167,20 @@ fn images(drawing: Drawing, mips: bool) -> Vec<Image> {
         Item::Shape(_) | Item::Clip(_) => None,
     });
     let mips = mips.then(canvas::no_mips);
-    mips.into_iter().chain(images).collect()
+    let mut images: Vec<Image> = mips.into_iter().chain(images).collect();
+    share_texels(&mut images);
+    images
+}
+
+/// Gives images of equal texels the same ones, such as an image that the SVG shows twice.
+fn share_texels(images: &mut [Image]) {
+    let mut known = BTreeMap::new();
+    for image in images {
+        let content = (image.size, Arc::clone(&image.mips));
+        image.mips = Arc::clone(
+            known
+                .entry(content)
+                .or_insert_with(|| Arc::clone(&image.mips)),
+        );
+    }
 }

@@ -3,12 +3,15 @@
 //! A rasteriser composites coverage as alpha, and where opaque shapes abut the background then
 //! shows through. A mean of exact point lookups cannot show what none of them returns.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
-use vtex_format::{AddressMode, Image, PaintRecord, VtexFile};
+use vtex_format::{AddressMode, Image, MAX_MIPS, PaintRecord, VtexFile};
 use vtex_shaders::{FilterMode, PackOptions, cpu::Sampler, pack};
 
 use crate::{
     config::Mode,
+    number::floor_u32,
     raster::{
         mips::{self, LinearImage},
         palette, texel,
@@ -61,16 +64,17 @@ impl Effort {
     }
 }
 
-/// Size of the canvas image if its longer side has `longer_side` texels: the aspect is kept, and no
-/// side is 0.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "between 1 and `longer_side`"
-)]
+/// Size of the canvas image if its longer side has about `longer_side` texels. Both sides are powers
+/// of two, as textures of levels want them: the nearest, so a texel is at most 1.42 times as long as
+/// wide where the canvas has room for more than one.
 pub(crate) fn canvas_texels(canvas_size: [f64; 2], longer_side: u32) -> [u32; 2] {
-    let scale = f64::from(longer_side) / canvas_size[0].max(canvas_size[1]);
-    canvas_size.map(|side| (side * scale).round().clamp(1.0, f64::from(longer_side)) as u32)
+    let scale = nearest_power(f64::from(longer_side)) / canvas_size[0].max(canvas_size[1]);
+    canvas_size.map(|side| floor_u32(nearest_power(side * scale)))
+}
+
+/// The nearest power of two by ratio, at least 1.
+fn nearest_power(value: f64) -> f64 {
+    value.max(1.0).log2().round().exp2()
 }
 
 /// A placeholder for image 0 in a file that gets its mips last.
@@ -78,7 +82,7 @@ pub(crate) fn no_mips() -> Image {
     Image {
         rect_uv: [0.0; 4],
         size: [0; 2],
-        mips: Vec::new(),
+        mips: Arc::default(),
     }
 }
 
@@ -104,20 +108,19 @@ fn raster_mips(raster: &Image, size: [u32; 2]) -> Image {
             .map(|&texel| texel::linear_from_stored(texel))
             .collect(),
     };
-    mips::chain(finest.reduced(size), WHOLE)
+    mips::chain(finest.reduced(size), WHOLE, MAX_MIPS)
 }
 
 /// The mips of what the cells show.
 fn cell_mips(file: &mut VtexFile, size: [u32; 2]) -> Image {
     // With `--mask` lookups return alpha alone, but mips hold the whole picture.
     let mask = std::mem::take(&mut file.meta.sampler.mask);
-    let mut image = mips::chain(picture(file, size), WHOLE);
+    let mut image = mips::chain(picture(file, size), WHOLE, MAX_MIPS);
     file.meta.sampler.mask = mask;
     // Merging colours would turn gradients into bands, and images may hold gradients too.
     let gradients = file.paints.iter().any(PaintRecord::is_gradient);
     if file.images.len() == 1 && !gradients {
-        image
-            .mips
+        Arc::make_mut(&mut image.mips)
             .par_iter_mut()
             .for_each(|level| palette::join_near_colors(level));
     }
@@ -196,6 +199,22 @@ impl<'a> Texels<'a> {
 mod tests {
     use super::*;
     use crate::{BakeConfig, Resources, bake, testing::Random};
+
+    #[test]
+    fn the_canvas_image_has_powers_of_two() {
+        let cases = [
+            ([100.0, 100.0], 256, [256, 256]),
+            ([3.0, 2.0], 256, [256, 128]),
+            ([1.0, 1.4], 256, [256, 256]),
+            ([1.0, 1.42], 256, [128, 256]),
+            ([1.0, 1e6], 256, [1, 256]),
+            ([7.0, 7.0], 300, [256, 256]),
+            ([7.0, 7.0], 1, [1, 1]),
+        ];
+        for (canvas, longer_side, expected) in cases {
+            assert_eq!(canvas_texels(canvas, longer_side), expected, "{canvas:?}");
+        }
+    }
 
     #[test]
     fn a_uniform_box_has_one_colour() {

@@ -4,8 +4,10 @@ use rayon::prelude::*;
 
 use crate::raster::{mips::LinearImage, texel};
 
-/// Codes by which a stored channel of the coarser raster, interpolated as lookups do, may differ.
-const MAX_ERROR: u8 = 2;
+/// Codes by which a channel of the coarser raster, interpolated as lookups do, may differ. They are
+/// codes of sRGB-encoded colour times alpha, as paints are composited: where hardly anything shows, a
+/// stored code stands for much less.
+const MAX_ERROR: f32 = 2.0;
 /// Texels of a side below which halving gains nothing.
 const MIN_SIDE: u32 = 16;
 
@@ -31,8 +33,8 @@ fn stands_for(coarse: &LinearImage, fine: &LinearImage) -> bool {
         let v = place(y, fine.size[1], coarse.size[1]);
         row.iter().enumerate().all(|(x, &texel)| {
             let found = bilinear(coarse, [place(x, fine.size[0], coarse.size[0]), v]);
-            let [a, b] = [texel, found].map(texel::stored_from_linear);
-            a.iter().zip(b).all(|(a, b)| a.abs_diff(b) <= MAX_ERROR)
+            let [a, b] = [texel, found].map(texel::composited_codes);
+            a.iter().zip(b).all(|(a, b)| (a - b).abs() <= MAX_ERROR)
         })
     })
 }

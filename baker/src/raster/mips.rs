@@ -1,5 +1,7 @@
 //! Mip chains by exact area averages.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 use vtex_format::Image;
 
@@ -18,8 +20,17 @@ impl LinearImage {
     /// The image averaged down to `size`, which must not be larger. Weights are exact for any ratio
     /// of sizes: odd sides lose no row, and the picture does not drift along the chain.
     pub(crate) fn reduced(&self, size: [u32; 2]) -> Self {
-        let columns = spans(self.size[0], size[0]);
-        let rows = spans(self.size[1], size[1]);
+        let [columns, rows] = [0, 1].map(|axis| spans(self.size[axis], size[axis]));
+        self.averaged(size, &columns, &rows)
+    }
+
+    /// Level `level` of an image of `full` texels, from this one, which is the level before it.
+    fn next_level(&self, full: [u32; 2], level: u32) -> Self {
+        let [columns, rows] = full.map(|side| halves(side, level));
+        self.averaged(Image::level_size(full, level), &columns, &rows)
+    }
+
+    fn averaged(&self, size: [u32; 2], columns: &[Span], rows: &[Span]) -> Self {
         let width = self.size[0] as usize;
         let texels = rows
             .par_iter()
@@ -33,6 +44,19 @@ impl LinearImage {
             })
             .collect();
         Self { size, texels }
+    }
+
+    /// The texels from left and top up to right and bottom.
+    pub(crate) fn part(&self, [left, top, right, bottom]: [u32; 4]) -> Self {
+        let rows = self.texels.chunks_exact(self.size[0] as usize);
+        let rows = rows.skip(top as usize).take((bottom - top) as usize);
+        Self {
+            size: [right - left, bottom - top],
+            texels: rows
+                .flat_map(|row| &row[left as usize..right as usize])
+                .copied()
+                .collect(),
+        }
     }
 
     /// Mirrors it along x and along y, as told.
@@ -82,6 +106,30 @@ fn spans(fine: u32, coarse: u32) -> Vec<Span> {
         .collect()
 }
 
+/// The spans of a level of an image whose level 0 has `full` texels along an axis, in the level before
+/// it. A texel at the end may stand for fewer texels of level 0 than the others, and then weighs less.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "weights are shares in [0, 1]"
+)]
+fn halves(full: u32, level: u32) -> Vec<Span> {
+    let full = u64::from(full);
+    let side = 1_u64 << (level - 1);
+    let stands_for = |k: u64| side.min(full.saturating_sub(k * side)) as f64;
+    (0..full.div_ceil(2 * side))
+        .map(|i| {
+            let [near, far] = [2 * i, 2 * i + 1].map(stands_for);
+            let weights = [near, far].into_iter().filter(|&texels| texels > 0.0);
+            Span {
+                first: usize::try_from(2 * i).unwrap_or(usize::MAX),
+                weights: weights
+                    .map(|texels| (texels / (near + far)) as f32)
+                    .collect(),
+            }
+        })
+        .collect()
+}
+
 /// Weighted sum of whole rows of `width` texels.
 fn row_average(texels: &[[f32; 4]], width: usize, row: &Span) -> Vec<[f32; 4]> {
     let mut sums = vec![[0.0; 4]; width];
@@ -108,20 +156,20 @@ fn add(sum: &mut [f32; 4], texel: &[f32; 4], weight: f32) {
     }
 }
 
-/// An image for the file with all its levels. Each is made from the level above it before that is
-/// rounded to bytes, so errors do not add up.
-pub(crate) fn chain(level0: LinearImage, rect_uv: [f32; 4]) -> Image {
+/// An image for the file with `levels` levels, or fewer where one texel is left before. Each is made
+/// from the level above it before that is rounded to bytes, so errors do not add up.
+pub(crate) fn chain(level0: LinearImage, rect_uv: [f32; 4], levels: u32) -> Image {
     let size = level0.size;
     let mut mips = vec![stored(&level0)];
     let mut level = level0;
-    for k in 1..Image::level_count(size) {
-        level = level.reduced(Image::level_size(size, k));
+    for k in 1..levels.min(Image::level_count(size)) {
+        level = level.next_level(size, k);
         mips.push(stored(&level));
     }
     Image {
         rect_uv,
         size,
-        mips,
+        mips: Arc::new(mips),
     }
 }
 
@@ -135,6 +183,8 @@ fn stored(level: &LinearImage) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
+    use vtex_format::MAX_MIPS;
+
     use super::*;
 
     fn image(size: [u32; 2], texel: impl Fn(u32, u32) -> [f32; 4]) -> LinearImage {
@@ -149,9 +199,9 @@ mod tests {
     fn a_constant_stays_constant_at_any_size() {
         let texel = [0.1, 0.2, 0.05, 0.5];
         for size in [[1, 1], [7, 5], [13, 1], [640, 3]] {
-            let chain = chain(image(size, |_, _| texel), [0.0, 0.0, 1.0, 1.0]);
+            let chain = chain(image(size, |_, _| texel), [0.0, 0.0, 1.0, 1.0], MAX_MIPS);
             assert_eq!(chain.mips.len(), Image::level_count(size) as usize);
-            for (k, level) in (0..).zip(&chain.mips) {
+            for (k, level) in (0..).zip(chain.mips.iter()) {
                 let [w, h] = Image::level_size(size, k);
                 assert_eq!(level.len(), 4 * w as usize * h as usize);
                 let expected = texel::stored_from_linear(texel);
@@ -170,6 +220,28 @@ mod tests {
         let half = ramp.reduced([3, 2]);
         let last = half.reduced([1, 1]);
         assert!((last.texels[0][0] - mean).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_texel_of_a_level_is_the_mean_of_those_that_it_covers() {
+        let texel = |x: u32, y: u32| [((7 * x + 3 * y) % 11) as f32 / 11.0, 0.0, 0.0, 1.0];
+        for size in [[13, 9], [8, 4], [5, 1], [1, 6]] {
+            let mut level = image(size, texel);
+            for k in 1..Image::level_count(size) {
+                level = level.next_level(size, k);
+                let [width, height] = Image::level_size(size, k);
+                assert_eq!(level.texels.len() as u32, width * height, "{size:?} {k}");
+                for (i, found) in (0..).zip(&level.texels) {
+                    let range =
+                        |place: u32, axis: usize| (place << k)..((place + 1) << k).min(size[axis]);
+                    let covered: Vec<f32> = range(i / width, 1)
+                        .flat_map(|y| range(i % width, 0).map(move |x| texel(x, y)[0]))
+                        .collect();
+                    let mean = covered.iter().sum::<f32>() / covered.len() as f32;
+                    assert!((found[0] - mean).abs() < 1e-5, "{size:?} {k} {i}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -109,6 +109,16 @@ pub(crate) fn stored_from_linear(texel: [f32; 4]) -> [u8; 4] {
     [encode_u8(r), encode_u8(g), encode_u8(b), unorm8(a)]
 }
 
+/// What a texel adds where it is composited: sRGB-encoded colour times alpha, and alpha, in codes.
+/// Colours are rounded to the nearest code, and then multiplied.
+pub(crate) fn composited_codes([r, g, b, alpha]: [f32; 4]) -> [f32; 4] {
+    if alpha <= 0.0 {
+        return [0.0; 4];
+    }
+    let channel = |c: f32| alpha * f32::from(encode_u8(c / alpha));
+    [channel(r), channel(g), channel(b), 255.0 * alpha]
+}
+
 /// The inverse of [`stored_from_linear`].
 pub(crate) fn linear_from_stored(texel: [u8; 4]) -> [f32; 4] {
     let [r, g, b, a] = texel;

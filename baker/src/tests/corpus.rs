@@ -33,8 +33,8 @@ fn raster_mode_paints_the_tiger() {
             mode,
             ..BakeConfig::default()
         };
-        let mut file = bake(&svg, &config, &Resources::default()).unwrap();
-        file.images.swap_remove(0).mips.swap_remove(0)
+        let file = bake(&svg, &config, &Resources::default()).unwrap();
+        file.images[0].mips[0].clone()
     };
     let (from_shapes, from_raster) = (mip0(Mode::Auto), mip0(Mode::Raster));
     let pairs = from_shapes.iter().zip(&from_raster);

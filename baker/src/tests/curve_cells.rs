@@ -51,7 +51,7 @@ fn near_an_edge(item: &Placed, p: Point) -> bool {
 
 /// Compares which opaque shape is in front at random points: `(compared, wrong)`.
 fn compare(drawing: &Drawing, file: &VtexFile, config: &BakeConfig, points: u32) -> (u32, u32) {
-    let lattice = Lattice::for_curves(drawing.canvas_size, config.msdf_size, config.mip0_size);
+    let lattice = Lattice::for_curves(drawing.canvas_size, config.msdf_size);
     assert_eq!(lattice.grid, file.meta.grid);
     let verdicts = vec![Verdict::forced(Coverage::Curves); drawing.items.len()];
     let placed = place(drawing, &lattice, &verdicts);

@@ -57,29 +57,35 @@ pub(crate) fn image_records(records: &[ImageRecord], issues: &mut Issues) -> boo
             16,
             &record.size,
         );
-        let full = record.level_count == Image::level_count(record.size);
-        require(full, issue::IMAGE_LEVELS, 24, &record.level_count);
-        require(
-            record.reserved == 0,
-            issue::IMAGE_RESERVED,
-            28,
-            &record.reserved,
-        );
+        let levels = (1..=Image::level_count(record.size)).contains(&record.level_count);
+        require(levels, issue::IMAGE_LEVELS, 24, &record.level_count);
+        let texels = has_texels(records, index);
+        require(texels, issue::IMAGE_TEXELS, 28, &record.texels_of);
     }
     sound
 }
 
-/// Every image has all its levels, and image 0 is the canvas where the key says so.
+/// Whether the image has texels of its own or those of an earlier image that does, of the same size.
+fn has_texels(records: &[ImageRecord], index: usize) -> bool {
+    let record = &records[index];
+    let place = record.texels_of as usize;
+    let earlier = |owner: &ImageRecord| {
+        owner.texels_of == record.texels_of
+            && owner.size == record.size
+            && owner.level_count == record.level_count
+    };
+    place == index || place < index && earlier(&records[place])
+}
+
+/// Every image has the texels of its levels, and image 0 is the canvas where the key says so.
 pub(super) fn images(file: &VtexFile, issues: &mut Issues) {
-    let records: Vec<_> = file.images.iter().map(ImageRecord::of).collect();
+    let records = ImageRecord::all(&file.images);
     image_records(&records, issues);
     for (index, (image, record)) in file.images.iter().zip(&records).enumerate() {
-        let offset = (index * size_of::<ImageRecord>()) as u64;
-        if image.mips.len() != record.level_count as usize {
-            let message = format_args!("image {index} has {} levels", image.mips.len());
-            issues.add(issue::IMAGE_LEVELS, Tag::IMAG, offset + 24, message);
+        if record.texels_of as usize != index {
+            continue;
         }
-        for (level, texels) in (0..record.level_count).zip(&image.mips) {
+        for (level, texels) in (0..record.level_count).zip(image.mips.iter()) {
             let expected = Image::level_bytes(image.size, level);
             if texels.len() as u64 != expected {
                 let length = texels.len();
@@ -89,9 +95,23 @@ pub(super) fn images(file: &VtexFile, issues: &mut Issues) {
             }
         }
     }
-    let canvas = file.images.first().map(|image| image.rect_uv);
-    if file.spec.features & Features::MIPS != 0 && canvas != Some([0.0, 0.0, 1.0, 1.0]) {
-        let message = format_args!("its rectangle is {canvas:?}");
+    if file.spec.features & Features::MIPS != 0 {
+        canvas_image(records.first(), issues);
+    }
+}
+
+/// The canvas image covers the canvas and has all its levels: nothing else shows a canvas that is
+/// smaller than a pixel.
+fn canvas_image(record: Option<&ImageRecord>, issues: &mut Issues) {
+    let rect_uv = record.map(|record| record.rect_uv);
+    if rect_uv != Some([0.0, 0.0, 1.0, 1.0]) {
+        let message = format_args!("its rectangle is {rect_uv:?}");
         issues.add(issue::CANVAS_IMAGE, Tag::IMAG, 0, message);
+    }
+    if let Some(record) = record
+        && record.level_count < Image::level_count(record.size)
+    {
+        let message = format_args!("the canvas image has {} levels", record.level_count);
+        issues.add(issue::IMAGE_LEVELS, Tag::IMAG, 24, message);
     }
 }

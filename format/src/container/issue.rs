@@ -229,12 +229,12 @@ issue_table! {
     TILE_ALPHA = 6003 Malformed "the alpha of a tile's texel is not 255";
     TILE_LAYERS = 6004 Malformed "the TILE sections do not hold the tiles of all layers, each in one section";
     IMAGE_SIZE = 6010 Malformed "an image has no texels or too many";
-    IMAGE_LEVELS = 6011 Malformed "the levels of an image do not go down to one texel";
+    IMAGE_LEVELS = 6011 Malformed "an image has no levels or too many, or the canvas image lacks some";
     IMAGE_RECT = 6012 Malformed "the rectangle of an image is not finite or empty";
-    IMAGE_RESERVED = 6013 Malformed "the reserved word of an image is not zero";
     MIP_PARTS = 6014 Malformed "the MIPS sections are incomplete or out of order";
     MIP_BYTES = 6015 Malformed "the length of a level differs from what its size requires";
     CANVAS_IMAGE = 6016 Malformed "the spec key has the feature MIPS, but image 0 is not the canvas";
+    IMAGE_TEXELS = 6017 Malformed "the image whose texels another one shares is unsuitable";
 }
 
 #[cfg(test)]

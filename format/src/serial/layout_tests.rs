@@ -107,7 +107,7 @@ fn records() -> String {
             rect_uv: [f32; 4],
             size: [u32; 2],
             level_count: u32,
-            reserved: u32,
+            texels_of: u32,
         }),
     ]
     .concat()

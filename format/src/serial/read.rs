@@ -1,6 +1,8 @@
 //! Bytes to value: sections are unpacked in file order, each once its length is known to be what
 //! the ones before it imply.
 
+use std::sync::Arc;
+
 use bytemuck::Pod;
 
 use super::levels::mip_sections;
@@ -342,8 +344,7 @@ impl Loader<'_> {
         if !image_records(records, self.issues) {
             return None;
         }
-        let sizes: Vec<_> = records.iter().map(|record| record.size).collect();
-        let (parts, expected) = (self.all(Tag::MIPS), mip_sections(&sizes));
+        let (parts, expected) = (self.all(Tag::MIPS), mip_sections(records));
         // Counted first: the `zip` below ends with the shorter of the two.
         if parts.len() != expected.len() {
             let (found, wanted) = (parts.len(), expected.len());
@@ -351,12 +352,12 @@ impl Loader<'_> {
             self.issues.add(issue::MIP_PARTS, Tag::SECT, 0, message);
             return None;
         }
-        let mut images: Vec<Image> = records.iter().map(ImageRecord::without_levels).collect();
+        let mut chains: Vec<Vec<Vec<u8>>> = vec![Vec::new(); records.len()];
         for ((index, _), part) in parts.into_iter().zip(expected) {
-            let size = sizes[part.image];
+            let size = records[part.image].size;
             self.expect_bytes(index, issue::MIP_BYTES, part.bytes(size))?;
             let texels: Vec<u8> = self.load(index)?;
-            let mips = &mut images[part.image].mips;
+            let mips = &mut chains[part.image];
             if part.levels.len() == 1 {
                 mips.push(texels);
                 continue;
@@ -370,10 +371,10 @@ impl Loader<'_> {
             }
         }
         // The file has the smallest level first.
-        for image in &mut images {
-            image.mips.reverse();
-        }
-        Some(images)
+        chains.iter_mut().for_each(|levels| levels.reverse());
+        let chains: Vec<_> = chains.into_iter().map(Arc::new).collect();
+        let shared = |record: &ImageRecord| record.image(&chains[record.texels_of as usize]);
+        Some(records.iter().map(shared).collect())
     }
 }
 

@@ -97,7 +97,7 @@ impl VtexFile {
         })?;
         let provenance = self.provenance.as_ref().map(canonical::encode);
         let spec = self.spec.encode();
-        let records: Vec<_> = self.images.iter().map(ImageRecord::of).collect();
+        let records = ImageRecord::all(&self.images);
         let cells = offsets::stored_cells(&self.cells, &self.entries);
         let entries = offsets::stored_entries(&self.entries, &self.curves);
         // In the order of `SECTIONS`, on which a reader insists.
@@ -116,7 +116,7 @@ impl VtexFile {
             Part::new(Tag::SHDR, shader),
         ];
         parts.extend(self.tile_parts());
-        parts.extend(self.mip_parts());
+        parts.extend(self.mip_parts(&records));
         // A section without content is left out (V2011).
         parts.retain(|part| !part.raw.is_empty());
         if parts.len() > MAX_SECTIONS as usize {
@@ -154,9 +154,8 @@ impl VtexFile {
         cut.collect()
     }
 
-    fn mip_parts(&self) -> impl Iterator<Item = Part<'_>> {
-        let sizes: Vec<_> = self.images.iter().map(|image| image.size).collect();
-        mip_sections(&sizes).into_iter().map(|part| {
+    fn mip_parts(&self, records: &[ImageRecord]) -> impl Iterator<Item = Part<'_>> {
+        mip_sections(records).into_iter().map(|part| {
             let mips = &self.images[part.image].mips;
             let level = |level: u32| mips[level as usize].as_slice();
             let raw = match part.levels.len() {

@@ -2,6 +2,7 @@
 // tidy: long because it is one table of all issues.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use vtex_format::{
     CurveLattice, DistanceOutline, Entry, EntryKind, Features, Grid, ISSUES, Image, Issue,
@@ -137,7 +138,7 @@ const CONTENT_CASES: &[FileCase] = &[
     }),
     (6010, |s| patch(&mut s[IMAG], 16, &u32::MAX.to_le_bytes())),
     (6011, |s| patch(&mut s[IMAG], 24, &u32::MAX.to_le_bytes())),
-    (6013, |s| patch(&mut s[IMAG], 28, &[1])),
+    (6017, |s| patch(&mut s[IMAG], 28, &[1])),
     (6014, |s| drop(s.pop())),
     (6014, |s| s.push(s[MIPS + 2].clone())),
     (6015, |s| s.swap(MIPS, MIPS + 1)),
@@ -238,10 +239,11 @@ const VALUE_CASES: &[ValueCase] = &[
     (6003, |f| f.tiles[7] = 254),
     (6010, |f| f.images[0].size[0] = 0),
     (6010, |f| f.images[0].size = [32_769, 1]),
-    (6011, |f| f.images[0].mips.truncate(2)),
+    (6011, |f| levels(f, 0).truncate(2)),
+    (6011, |f| levels(f, 1).clear()),
     (6012, |f| f.images[0].rect_uv[2] = 0.0),
     (6012, |f| f.images[1].rect_uv[0] = f32::NAN),
-    (6015, |f| f.images[1].mips[0].truncate(7)),
+    (6015, |f| levels(f, 1)[0].truncate(7)),
     (6016, |f| f.images.swap(0, 1)),
 ];
 
@@ -492,6 +494,11 @@ fn a_bomb_is_refused_before_it_is_unpacked() {
     }
 }
 
+/// The levels of an image, to break them.
+fn levels(file: &mut VtexFile, image: usize) -> &mut Vec<Vec<u8>> {
+    Arc::make_mut(&mut file.images[image].mips)
+}
+
 #[test]
 fn at_most_256_issues_are_told() {
     let mut file = sample::small();
@@ -511,7 +518,7 @@ fn an_opaque_image_may_be_called_so() {
         let [width, height] = Image::level_size([1, 2], level);
         [1, 2, 3, 255].repeat((width * height) as usize)
     };
-    file.images[1].mips = vec![opaque(0), opaque(1)];
+    file.images[1].mips = Arc::new(vec![opaque(0), opaque(1)]);
     let entry = Entry {
         kind: EntryKind::Image,
         last: false,

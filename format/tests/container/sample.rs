@@ -1,5 +1,7 @@
 //! Valid files made in code: one by hand that has every section, and arbitrary ones.
 
+use std::sync::Arc;
+
 use crate::gradients::{any_gradient, small_gradients};
 use arbtest::arbitrary::{Result, Unstructured};
 use bytemuck::Zeroable;
@@ -218,7 +220,7 @@ fn image(rect_uv: [f32; 4], size: [u32; 2]) -> Image {
     Image {
         rect_uv,
         size,
-        mips: (0..Image::level_count(size)).map(level).collect(),
+        mips: Arc::new((0..Image::level_count(size)).map(level).collect()),
     }
 }
 

@@ -148,13 +148,15 @@ impl TexelPages {
 
 /// Levels of `image` that fit a page, the finest first, with the index of the first.
 pub(crate) fn levels_of(image: &Image, wraps: [bool; 2]) -> (u32, Vec<Level<'_>>) {
-    let sized = (0..MAX_MIPS).zip(&image.mips).map(|(level, texels)| Level {
-        texels,
-        size: Image::level_size(image.size, level),
-        // A lookup's place is that in level 0 over a power of two.
-        reach: image.size.map(|side| side.div_ceil(1 << level).max(1)),
-        wraps,
-    });
+    let sized = (0..MAX_MIPS)
+        .zip(image.mips.iter())
+        .map(|(level, texels)| Level {
+            texels,
+            size: Image::level_size(image.size, level),
+            // A lookup's place is that in level 0 over a power of two.
+            reach: image.size.map(|side| side.div_ceil(1 << level).max(1)),
+            wraps,
+        });
     let too_large = |level: &Level<'_>| level.reach.iter().any(|&s| s > MAX_PAGE_SIDE - 2 * BORDER);
     let levels: Vec<Level<'_>> = sized.skip_while(too_large).collect();
     let left_out = image.mips.len().min(MAX_MIPS as usize) - levels.len();
@@ -163,6 +165,8 @@ pub(crate) fn levels_of(image: &Image, wraps: [bool; 2]) -> (u32, Vec<Level<'_>>
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
 
     fn level(size: [u32; 2], texels: &[u8], wraps: [bool; 2]) -> Level<'_> {
@@ -205,7 +209,7 @@ mod tests {
         let image = Image {
             rect_uv: [0.0, 0.0, 1.0, 1.0],
             size,
-            mips: vec![Vec::new(); count as usize],
+            mips: Arc::new(vec![Vec::new(); count as usize]),
         };
         let (first, levels) = levels_of(&image, [false; 2]);
         assert_eq!(first, 3, "8192 texels have no room for a border");

@@ -1,5 +1,7 @@
 //! Small files built by hand: a grid of cells of unit scale, without a baker.
 
+use std::sync::Arc;
+
 use vtex_format::{
     CellWord, CurveHeader, CurveLattice, Entry, EntryKind, Features, Grid, Image, Meta,
     PaintRecord, SpecKey, VtexFile,
@@ -136,7 +138,7 @@ pub(crate) fn image(
     Image {
         rect_uv,
         size,
-        mips: mips.collect(),
+        mips: Arc::new(mips.collect()),
     }
 }
 

@@ -32,7 +32,7 @@ impl Candidate {
     /// The lattice with `size` texels along the canvas' longer side.
     pub(super) fn new(drawing: &Drawing, config: &BakeConfig, size: u32) -> Self {
         let lattice = Lattice::new(drawing.canvas_size, size);
-        let scales = Scales::new(config, &lattice);
+        let scales = Scales::new(config);
         Self {
             size,
             lattice,

@@ -148,8 +148,8 @@ impl Choosing {
     fn new(drawing: &Drawing, config: &BakeConfig) -> Self {
         let subjects = subjects(drawing, config.longer_side_px());
         let mip0_size = config.mip0_size;
-        let lattice = Lattice::for_curves(drawing.canvas_size, config.msdf_size, mip0_size);
-        let margin = Scales::new(config, &lattice).distances.margin;
+        let lattice = Lattice::for_curves(drawing.canvas_size, config.msdf_size);
+        let margin = Scales::new(config).distances.margin;
         let whole = subjects
             .iter()
             .flatten()

@@ -1,19 +1,19 @@
 //! How fine patches are: what is wanted, and what memory and time allow.
 //!
-//! *Density* is the number of patch texels for each texel of mip 0, along an axis. At density 8 a
-//! patch stays sharp up to eight times the zoom at which mips end.
+//! *Density* is the number of patch texels for each pixel at zoom 1, along an axis. At density 8 a
+//! patch stays sharp up to zoom 8.
 
 use kurbo::Rect;
 
 use crate::{
-    config::BakeConfig,
+    config::{BakeConfig, PIXELS_AT_ZOOM_1},
+    number::floor_u32,
     svg::{Cost, Subtree},
 };
 
 /// Density when there is room.
 const FINEST_DENSITY: f64 = 8.0;
-/// Density below which a warning is due: such a patch is visibly blurred at little more than the
-/// zoom of mip 0.
+/// Density below which a warning is due: such a patch is visibly blurred at zoom 4.
 pub(super) const WANTED_DENSITY: f64 = 4.0;
 /// Texels along the longer side of a patch, without up to three of its border. A square of that
 /// size takes 21 MiB with its mips.
@@ -61,7 +61,7 @@ impl PatchSettings {
 
     /// Texels along a user unit at density 1.
     fn base_scale(self) -> f64 {
-        f64::from(self.mip0_size) / self.canvas_size[0].max(self.canvas_size[1])
+        PIXELS_AT_ZOOM_1 / self.canvas_size[0].max(self.canvas_size[1])
     }
 
     /// The canvas in user units.
@@ -109,8 +109,7 @@ impl PatchSettings {
 
     /// The density of a patch of the whole canvas.
     pub(super) fn density_of_canvas(self) -> f64 {
-        self.finest_density()
-            .min(MAX_PATCH_SIDE / f64::from(self.mip0_size))
+        self.finest_density().min(MAX_PATCH_SIDE / PIXELS_AT_ZOOM_1)
     }
 
     fn density_for_side(self, bounds: Rect) -> f64 {
@@ -138,6 +137,12 @@ impl PatchSettings {
             .min(for_layers)
             .min(for_patterns)
             .min(cost.filter_density(base))
+    }
+
+    /// Texels of an image on `rect` at which each has a pixel at the largest zoom. No image needs more.
+    pub(super) fn most_texels(self, rect: Rect) -> [u32; 2] {
+        let scale = self.base_scale() * self.max_zoom;
+        [rect.width(), rect.height()].map(|side| floor_u32((side * scale).ceil()).max(1))
     }
 
     /// Texels of the whole canvas at a density. They cover the canvas exactly, so they are not

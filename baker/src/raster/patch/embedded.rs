@@ -1,30 +1,32 @@
 //! Embedded images: they keep their own texels instead of being painted into a patch.
 //!
 //! resvg interpolates between texels by cubics or takes the nearest; lookups interpolate linearly.
-//! So a small image is first enlarged by resvg, and the texels of the result are stored.
+//! So a small image is first enlarged by resvg, and the texels of the result are stored. Others have
+//! no more texels than in the SVG, and no more than the largest zoom shows.
 
 use kurbo::{Affine, Rect};
 use tiny_skia::Pixmap;
 use usvg::{ImageKind, ImageRendering, Node};
 use vtex_format::EMBEDDED_SOURCE;
 
-use super::resvg::paint_node;
+use super::{
+    density::PatchSettings,
+    finish::Source,
+    resvg::paint_node,
+    shown::{Texels, shown_part},
+};
 use crate::{
-    drawing::ImageItem,
-    number::to_f32,
-    raster::{
-        detail,
-        mips::{self, LinearImage},
-        texel,
-    },
+    drawing::Item,
+    number::floor_u32,
+    raster::{detail, mips::LinearImage, texel},
     svg::{PlanItem, Subtree},
 };
 
 /// Texels of all embedded images of a file together: 32 MiB with their mips. Images beyond it
 /// become patches.
 const MAX_TEXELS: u64 = 6_291_456;
-/// Texels that an image may be enlarged to.
-const MAX_ENLARGED_TEXELS: u64 = 1 << 20;
+/// Texels that all embedded images of a file together may be enlarged to, 0.33 MiB with their mips.
+const MAX_ENLARGED_TEXELS: u64 = 1 << 16;
 /// Largest enlargement along each axis of an image that is smoothed.
 const MAX_SMOOTH: u32 = 8;
 /// Largest enlargement of an image that is not smoothed. The blur that linear lookups leave between
@@ -74,7 +76,7 @@ impl Embedded {
             | ImageRendering::Smooth
             | ImageRendering::HighQuality => MAX_SMOOTH,
         };
-        // A small image may be enlarged a lot, one of a million texels not at all.
+        // A small image may be enlarged a lot, one of 2^16 texels not at all.
         let enlarged = (MAX_ENLARGED_TEXELS / texels)
             .isqrt()
             .clamp(1, u64::from(most));
@@ -101,41 +103,104 @@ impl Embedded {
         width * height
     }
 
-    /// The image at its place on the canvas; `None` when resvg could not paint it.
-    pub(super) fn patch(self, subtree: &Subtree<'_>, canvas_size: [f64; 2]) -> Option<ImageItem> {
+    /// The image at its place on the canvas. `None` when resvg could not paint it; no item when
+    /// nothing of it shows.
+    pub(super) fn picture(
+        self,
+        subtree: &Subtree<'_>,
+        settings: PatchSettings,
+    ) -> Option<Option<Item>> {
+        let mut picture = self.painted(subtree)?;
+        let [width, height] = self.size.map(f64::from);
+        let placed = Rect::new(0.0, 0.0, width, height);
+        let rect = subtree.canvas_from_parent.transform_rect_bbox(placed);
+        // The enlargement may have added nothing that linear lookups do not show.
+        if self.enlarged > 1 {
+            picture = detail::fitted(picture);
+        }
+        let most = settings.most_texels(rect);
+        if picture.size[0] > most[0] || picture.size[1] > most[1] {
+            picture = picture.reduced([0, 1].map(|axis| picture.size[axis].min(most[axis])));
+        }
+        let source = Source {
+            feature: EMBEDDED_SOURCE,
+            element: &subtree.element,
+        };
+        let shown = shown(picture, rect, settings.canvas_rect());
+        Some(shown.map(|(picture, rect)| settings.item(picture, rect, source)))
+    }
+
+    /// Its texels as they lie on the canvas.
+    fn painted(self, subtree: &Subtree<'_>) -> Option<LinearImage> {
         let size = self.stored_size();
         let mut pixmap = Pixmap::new(size[0], size[1])?;
         let texel_from_image = Affine::scale(self.enlarged.into());
         paint_node(subtree.node, texel_from_image, &mut pixmap)?;
         let texels = pixmap.data().as_chunks::<4>().0;
-        let mut level0 = LinearImage {
+        let mut picture = LinearImage {
             size,
             texels: texels.iter().map(|&t| texel::linear_from_skia(t)).collect(),
         };
         // resvg has painted it upright; the rectangle of an image cannot be mirrored, so its texels
         // are.
-        level0.mirror(self.mirrored);
-        // The enlargement may have added nothing that linear lookups do not show.
-        if self.enlarged > 1 {
-            level0 = detail::fitted(level0);
-        }
-        let [width, height] = self.size.map(f64::from);
-        let placed = Rect::new(0.0, 0.0, width, height);
-        let rect = subtree.canvas_from_parent.transform_rect_bbox(placed);
-        let [across, down] = canvas_size;
-        let rect_uv = [
-            rect.x0 / across,
-            rect.y0 / down,
-            rect.x1 / across,
-            rect.y1 / down,
-        ];
-        Some(ImageItem {
-            rect,
-            image: mips::chain(level0, rect_uv.map(to_f32)),
-            feature: EMBEDDED_SOURCE.to_owned(),
-            element: subtree.element.clone(),
-        })
+        picture.mirror(self.mirrored);
+        Some(picture)
     }
+}
+
+/// The part of an image that shows, in whole texels, and where it lies: without transparent margins,
+/// and without what lies beside the canvas if that is most of it. Less is kept, so that an image that
+/// is used twice keeps the same texels.
+fn shown(picture: LinearImage, rect: Rect, canvas: Rect) -> Option<(LinearImage, Rect)> {
+    let width = picture.size[0] as usize;
+    let mut part = shown_part(&picture.texels, width, |texel| texel[3] > 0.0)?;
+    let visible = rect.intersect(canvas);
+    if 2.0 * visible.area() < rect.area() {
+        part = intersection(part, texels_of(visible, rect, picture.size))?;
+    }
+    let scale = [
+        rect.width() / f64::from(picture.size[0]),
+        rect.height() / f64::from(picture.size[1]),
+    ];
+    let place = |side: usize| {
+        let start = [rect.x0, rect.y0][side % 2];
+        // The far sides stay where they are to the last bit.
+        let end = [rect.x1, rect.y1][side % 2];
+        if part[side] == picture.size[side % 2] {
+            end
+        } else {
+            start + f64::from(part[side]) * scale[side % 2]
+        }
+    };
+    let [left, top, right, bottom] = [0, 1, 2, 3].map(place);
+    Some((picture.part(part), Rect::new(left, top, right, bottom)))
+}
+
+/// The texels that `visible` meets, and one more on each side, of an image on `rect`.
+fn texels_of(visible: Rect, rect: Rect, size: [u32; 2]) -> Texels {
+    let texel = |place: f64, start: f64, length: f64, side: u32| {
+        ((place - start) / length * f64::from(side)).clamp(0.0, f64::from(side))
+    };
+    let x = |place: f64| texel(place, rect.x0, rect.width(), size[0]);
+    let y = |place: f64| texel(place, rect.y0, rect.height(), size[1]);
+    let low = |texel: f64| floor_u32(texel).saturating_sub(1);
+    let high = |texel: f64, side: u32| (floor_u32(texel.ceil()) + 1).min(side);
+    [
+        low(x(visible.x0)),
+        low(y(visible.y0)),
+        high(x(visible.x1), size[0]),
+        high(y(visible.y1), size[1]),
+    ]
+}
+
+fn intersection(a: Texels, b: Texels) -> Option<Texels> {
+    let part = [
+        a[0].max(b[0]),
+        a[1].max(b[1]),
+        a[2].min(b[2]),
+        a[3].min(b[3]),
+    ];
+    (part[0] < part[2] && part[1] < part[3]).then_some(part)
 }
 
 /// Whether the image's axes are those of the canvas.
@@ -168,7 +233,7 @@ fn share_out<'a>(images: impl Iterator<Item = &'a mut Option<Embedded>>) {
     };
     // First less enlargement for all.
     let mut most = MAX_SHARP;
-    while most > 1 && total(&images, most) > MAX_TEXELS {
+    while most > 1 && total(&images, most) > MAX_ENLARGED_TEXELS {
         most -= 1;
     }
     // Then first come, first served, in document order.
@@ -286,20 +351,20 @@ mod tests {
 
     #[test]
     fn images_share_a_budget() {
-        let image = super::Embedded {
-            size: [1000, 1000],
+        let image = |side: u32| super::Embedded {
+            size: [side; 2],
             enlarged: 2,
             mirrored: [false; 2],
         };
-        let shared = |count: usize| {
-            let mut images = vec![Some(image); count];
+        let shared = |side: u32, count: usize| {
+            let mut images = vec![Some(image(side)); count];
             super::share_out(images.iter_mut());
             let enlarged = images.iter().map(|image| image.map(|image| image.enlarged));
             enlarged.collect::<Vec<_>>()
         };
-        assert_eq!(shared(1), [Some(2)]);
-        assert_eq!(shared(2), [Some(1); 2]);
+        assert_eq!(shared(100, 1), [Some(2)]);
+        assert_eq!(shared(100, 2), [Some(1); 2]);
         let most = [[Some(1); 6].as_slice(), &[None; 2]].concat();
-        assert_eq!(shared(8), most);
+        assert_eq!(shared(1000, 8), most);
     }
 }

@@ -6,8 +6,10 @@
 
 mod density;
 mod embedded;
+mod finish;
 mod reason;
 mod resvg;
+mod shown;
 mod skia;
 mod window;
 
@@ -17,13 +19,14 @@ use vtex_format::{Warning, WarningCode};
 
 use crate::{
     drawing::{ImageItem, Item, Shape, tree::Tree},
-    raster::mips::{self, LinearImage},
+    raster::mips::LinearImage,
     svg::{Plan, PlanItem, Subtree},
     warning::{self, Warnings},
 };
 use density::{MAX_PATCH_TEXELS, WANTED_DENSITY};
 use embedded::Embedded;
-use window::{Source, Window};
+use finish::Source;
+use window::Window;
 
 pub(crate) use density::PatchSettings;
 
@@ -75,11 +78,11 @@ pub(crate) fn resolve(
 
 /// The result of one item of a plan.
 enum Outcome {
-    /// An item that needs no warning: geometry or an embedded image.
+    /// An item that needs no warning: geometry, or an embedded image.
     Item(Item),
     /// A patch, its density, and why it is no geometry.
     Patch(ImageItem, f64, &'static str),
-    /// Nothing: all of it is transparent.
+    /// Nothing: all of it is transparent, or lies beside the canvas.
     Nothing,
     /// resvg failed on this feature of this element.
     Failed(&'static str, String),
@@ -97,9 +100,9 @@ impl Outcome {
             PlanItem::Clip(clip) => return Self::Item(Item::Clip(clip)),
             PlanItem::Raster(subtree) => subtree,
         };
-        let image = image.and_then(|image| image.patch(&subtree, settings.canvas_size));
-        match image {
-            Some(patch) => Self::Item(Item::Image(patch)),
+        match image.and_then(|image| image.picture(&subtree, settings)) {
+            Some(Some(item)) => Self::Item(item),
+            Some(None) => Self::Nothing,
             None => Self::painted(&subtree, settings, density),
         }
     }
@@ -115,8 +118,9 @@ impl Outcome {
             feature: subtree.feature,
             element: &subtree.element,
         };
-        match window.patch(pixmap, source) {
-            Some(patch) => Self::Patch(patch, density, reason::of(subtree)),
+        match window.item(pixmap, settings, source) {
+            Some(Item::Image(patch)) => Self::Patch(patch, density, reason::of(subtree)),
+            Some(shape) => Self::Item(shape),
             None => Self::Nothing,
         }
     }
@@ -162,7 +166,7 @@ pub(crate) fn of_shape(shape: &Shape, settings: PatchSettings, share: f64) -> Op
         feature: SHAPE_FEATURE,
         element: &shape.element,
     };
-    window.patch(pixmap, source)
+    window.image(pixmap, settings, source)
 }
 
 /// The whole canvas as one patch, and a warning if it is coarse. `paint` makes the picture at a
@@ -173,12 +177,11 @@ pub(crate) fn whole_canvas(
 ) -> (ImageItem, Option<Warning>) {
     let density = settings.density_of_canvas();
     let picture = paint(settings.lattice(density));
-    let patch = ImageItem {
-        rect: settings.canvas_rect(),
-        image: mips::chain(picture, [0.0, 0.0, 1.0, 1.0]),
-        feature: "raster".to_owned(),
-        element: String::new(),
+    let source = Source {
+        feature: "raster",
+        element: "",
     };
+    let patch = settings.image(picture, settings.canvas_rect(), source);
     let coarse = density < settings.wanted_density();
     (patch, coarse.then(coarse_warning))
 }
@@ -197,7 +200,7 @@ fn patch_warning(patch: &ImageItem, reason: &str, canvas_size: [f64; 2]) -> Warn
 fn coarse_warning() -> Warning {
     let mib = MAX_PATCH_TEXELS * 16.0 / 3.0 / 1_048_576.0;
     let message = format!(
-        "raster patches have fewer than {WANTED_DENSITY} texels for each of mip 0, \
+        "raster patches have fewer than {WANTED_DENSITY} texels for each pixel at zoom 1, \
          to keep within {mib} MiB"
     );
     warning::plain(WarningCode::Reduced, "raster", "", message)

@@ -3,19 +3,21 @@
 use kurbo::Rect;
 use tiny_skia::Pixmap;
 
-use super::{density::PatchSettings, skia::View};
+use super::{
+    density::PatchSettings,
+    finish::Source,
+    shown::{Texels, shown_part},
+    skia::View,
+};
 use crate::{
-    drawing::ImageItem,
-    number::to_f32,
-    raster::{
-        detail,
-        mips::{self, LinearImage},
-        texel,
-    },
+    drawing::{ImageItem, Item},
+    raster::{detail, mips::LinearImage, texel},
 };
 
-/// Left, top, right, bottom; the last two are one past the last texel.
-type Texels = [u32; 4];
+/// Codes by which neighbouring texels of soft pictures differ at most.
+const MAX_SOFT: u8 = 4;
+/// Texels of a patch that are too few to look for an end that is cut off.
+const MIN_HARD_SIDE: u32 = 8;
 
 /// A rectangle of texels on the canvas.
 #[derive(Clone, Copy, Debug)]
@@ -26,15 +28,6 @@ pub(super) struct Window {
     lattice: [u32; 2],
     /// Those of the window.
     texels: Texels,
-}
-
-/// Where a patch comes from.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Source<'a> {
-    /// Why it is not geometry.
-    pub(super) feature: &'a str,
-    /// `id` of the element, may be empty.
-    pub(super) element: &'a str,
 }
 
 impl Window {
@@ -77,23 +70,45 @@ impl Window {
         }
     }
 
-    /// The painted window as a patch that is no larger and no finer than it has to be; `None` when
+    /// The painted window as an item that is no larger and no finer than it has to be; `None` when
     /// nothing shows.
-    pub(super) fn patch(&self, mut pixmap: Pixmap, source: Source<'_>) -> Option<ImageItem> {
+    pub(super) fn item(
+        &self,
+        pixmap: Pixmap,
+        settings: PatchSettings,
+        source: Source<'_>,
+    ) -> Option<Item> {
+        let (picture, rect) = self.picture(pixmap)?;
+        Some(settings.item(picture, rect, source))
+    }
+
+    /// As [`Self::item`], an image in any case.
+    pub(super) fn image(
+        &self,
+        pixmap: Pixmap,
+        settings: PatchSettings,
+        source: Source<'_>,
+    ) -> Option<ImageItem> {
+        let (picture, rect) = self.picture(pixmap)?;
+        Some(settings.image(picture, rect, source))
+    }
+
+    /// The part of the painted window that shows, and where it lies.
+    fn picture(&self, mut pixmap: Pixmap) -> Option<(LinearImage, Rect)> {
         self.clear_border(&mut pixmap);
-        let shown = self.shown_part(&pixmap)?;
+        let texels = pixmap.data().as_chunks::<4>().0;
+        // Within the window there is a transparent border except along the edges of the canvas.
+        let shown = shown_part(texels, pixmap.width() as usize, |texel| texel[3] > 0)?;
+        let shown = without_border_of_hard_sides(&pixmap, shown);
         // Soft content such as a blurred shadow gets fewer texels.
-        let level0 = detail::fitted(self.cropped(&pixmap, shown));
-        let uv = |side: usize| f64::from(shown[side]) / f64::from(self.lattice[side % 2]);
-        let rect_uv = [0, 1, 2, 3].map(uv);
-        let [left, top, right, bottom] = rect_uv;
-        let [width, height] = self.canvas_size;
-        Some(ImageItem {
-            rect: Rect::new(left * width, top * height, right * width, bottom * height),
-            image: mips::chain(level0, rect_uv.map(to_f32)),
-            feature: source.feature.to_owned(),
-            element: source.element.to_owned(),
-        })
+        let picture = detail::fitted(cropped(&pixmap, shown));
+        let place = |side: usize| {
+            let axis = side % 2;
+            let texel = f64::from(self.texels[axis] + shown[side]);
+            texel / f64::from(self.lattice[axis]) * self.canvas_size[axis]
+        };
+        let [left, top, right, bottom] = [0, 1, 2, 3].map(place);
+        Some((picture, Rect::new(left, top, right, bottom)))
     }
 
     /// Clears the outermost texels except along the edges of the canvas. A lookup at the border of
@@ -117,45 +132,58 @@ impl Window {
             }
         }
     }
+}
 
-    /// The smallest part that shows everything, with a transparent border except along the edges of
-    /// the canvas. `None` when nothing shows.
-    fn shown_part(&self, pixmap: &Pixmap) -> Option<Texels> {
-        let width = pixmap.width() as usize;
-        let texels = pixmap.data().as_chunks::<4>().0;
-        let shows = |texel: &[u8; 4]| texel[3] > 0;
-        let mut columns: Option<(usize, usize)> = None;
-        let mut rows: Option<(usize, usize)> = None;
-        for (y, row) in texels.chunks_exact(width).enumerate() {
-            let Some(first) = row.iter().position(shows) else {
-                continue;
+/// The part without its transparent border along each side where the picture is cut off, as at the
+/// end of a filter region: the rectangle of an image is an edge that needs no texels of its own, and
+/// the border would keep a soft picture from being halved.
+fn without_border_of_hard_sides(pixmap: &Pixmap, shown: Texels) -> Texels {
+    let texels = pixmap.data().as_chunks::<4>().0;
+    let width = pixmap.width() as usize;
+    let mut part = shown;
+    for side in 0..4 {
+        let axis = side % 2;
+        // From the border inwards.
+        let line = |depth: u32| {
+            let at = if side < 2 {
+                shown[side] + depth
+            } else {
+                shown[side] - 1 - depth
             };
-            let last = row.iter().rposition(shows).unwrap_or(first);
-            columns = Some(columns.map_or((first, last), |(a, b)| (a.min(first), b.max(last))));
-            rows = Some(rows.map_or((y, y), |(a, _)| (a, y)));
+            let along = shown[1 - axis]..shown[3 - axis];
+            along.map(move |place| {
+                let [x, y] = if axis == 0 { [at, place] } else { [place, at] };
+                texels[y as usize * width + x as usize]
+            })
+        };
+        let has_border =
+            shown[axis + 2] - shown[axis] > MIN_HARD_SIDE && line(0).all(|t| t[3] == 0);
+        let differ =
+            |a: [u8; 4], b: [u8; 4]| a.iter().zip(b).any(|(a, b)| a.abs_diff(b) > MAX_SOFT);
+        let cut_off = || line(1).any(|texel| texel[3] > MAX_SOFT);
+        let soft_inside = || !line(1).zip(line(2)).any(|(a, b)| differ(a, b));
+        if has_border && cut_off() && soft_inside() {
+            part[side] = if side < 2 {
+                shown[side] + 1
+            } else {
+                shown[side] - 1
+            };
         }
-        let ((left, right), (top, bottom)) = (columns?, rows?);
-        let texel =
-            |offset: usize, axis: usize| self.texels[axis] + u32::try_from(offset).unwrap_or(0);
-        Some([
-            // One transparent texel more on each side, so that lookups fade out.
-            texel(left, 0).saturating_sub(1),
-            texel(top, 1).saturating_sub(1),
-            (texel(right, 0) + 2).min(self.lattice[0]),
-            (texel(bottom, 1) + 2).min(self.lattice[1]),
-        ])
     }
+    part
+}
 
-    fn cropped(&self, pixmap: &Pixmap, shown: Texels) -> LinearImage {
-        let size = [shown[2] - shown[0], shown[3] - shown[1]];
-        let width = pixmap.width() as usize;
-        let [left, top] = [0, 1].map(|axis| (shown[axis] - self.texels[axis]) as usize);
-        let texels = pixmap.data().as_chunks::<4>().0;
-        let rows = texels.chunks_exact(width).skip(top).take(size[1] as usize);
-        let texels = rows
-            .flat_map(|row| &row[left..left + size[0] as usize])
-            .map(|&texel| texel::linear_from_skia(texel))
-            .collect();
-        LinearImage { size, texels }
+fn cropped(pixmap: &Pixmap, shown: Texels) -> LinearImage {
+    let [left, top, right, bottom] = shown;
+    let texels = pixmap.data().as_chunks::<4>().0;
+    let rows = texels.chunks_exact(pixmap.width() as usize);
+    let rows = rows.skip(top as usize).take((bottom - top) as usize);
+    let texels = rows
+        .flat_map(|row| &row[left as usize..right as usize])
+        .map(|&texel| texel::linear_from_skia(texel))
+        .collect();
+    LinearImage {
+        size: [right - left, bottom - top],
+        texels,
     }
 }

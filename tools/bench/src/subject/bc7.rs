@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use vtex_format::Image;
 
 use super::raster::{TexelBlocks, texture_kernel};
+use super::rasterise::level_size;
 use crate::timing::{Device, Kernel};
 
 /// Longer sides of the BC7 textures: the raster's own level 0, 1 and 2.
@@ -37,7 +38,7 @@ impl Bc7 {
         let mut known: BTreeMap<[u8; BLOCK_RGBA], usize> = BTreeMap::new();
         let mut distinct: Vec<[u8; BLOCK_RGBA]> = Vec::new();
         let levels: Vec<Vec<usize>> = (0..)
-            .zip(&image.mips)
+            .zip(image.mips.iter())
             .map(|(level, texels)| {
                 let number = |block| {
                     *known.entry(block).or_insert_with(|| {
@@ -45,7 +46,7 @@ impl Bc7 {
                         distinct.len() - 1
                     })
                 };
-                let size = Image::level_size(image.size, level);
+                let size = level_size(image.size, level);
                 blocks(texels, size).map(number).collect()
             })
             .collect();
@@ -76,7 +77,7 @@ impl Bc7 {
             side: BLOCK,
             bytes: BLOCK_BYTES,
         };
-        let size = Image::level_size(self.size, shift);
+        let size = level_size(self.size, shift);
         texture_kernel(device, blocks, size, self.levels(first))
     }
 }
@@ -144,8 +145,8 @@ mod tests {
             let image = rasterise_in_blocks(&tree, 1024, BC7_SIDE_MULTIPLE).unwrap();
             let bc7 = Bc7::encode(&image);
             assert_eq!(bc7.levels.len(), image.mips.len());
-            for (level, (blocks, texels)) in (0..).zip(bc7.levels.iter().zip(&image.mips)) {
-                let [width, height] = Image::level_size(image.size, level);
+            for (level, (blocks, texels)) in (0..).zip(bc7.levels.iter().zip(image.mips.iter())) {
+                let [width, height] = level_size(image.size, level);
                 // The decoder writes whole blocks.
                 if width % BLOCK != 0 || height % BLOCK != 0 {
                     continue;

@@ -24,7 +24,9 @@ use bc7::{BC7_SIDE_MULTIPLE, Bc7};
 
 pub(crate) use bc7::BC7_SIZES;
 pub(crate) use raster::{CpuRaster, RASTER_SIZE, halves_kernel, hardware_kernel, synthetic};
-pub(crate) use rasterise::{parse, rasterise, rasterise_in_blocks, render};
+pub(crate) use rasterise::{
+    level_count, level_size, parse, rasterise, rasterise_in_blocks, render,
+};
 
 /// Points along each side of a window at which its cost is probed.
 const PROBES: u16 = 24;

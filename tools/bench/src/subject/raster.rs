@@ -1,9 +1,12 @@
 //! The baseline: a raster texture with mips, looked up on the CPU and by the sampler of the GPU.
 
+use std::sync::Arc;
+
 use vtex_format::Image;
 use vtex_shaders::layout::BatchQuery;
 use vtex_shaders::srgb;
 
+use super::rasterise::{level_count, level_size};
 use crate::timing::{Device, Kernel};
 
 /// Side of the raster that a vector texture replaces: 64 MiB before its mips.
@@ -35,7 +38,7 @@ pub(crate) fn synthetic(size: u32) -> Image {
     Image {
         rect_uv: [0.0, 0.0, 1.0, 1.0],
         size: [size; 2],
-        mips,
+        mips: Arc::new(mips),
     }
 }
 
@@ -109,7 +112,7 @@ fn upload(
     let texture = device.device.create_texture(&wgpu::TextureDescriptor {
         label: None,
         size: extent(size),
-        mip_level_count: Image::level_count(size),
+        mip_level_count: level_count(size),
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format: blocks.format,
@@ -118,7 +121,7 @@ fn upload(
     });
     for (level, bytes) in (0..).zip(levels) {
         // A copy takes whole blocks, also of a level that is smaller than one.
-        let size = Image::level_size(size, level).map(|side| side.next_multiple_of(blocks.side));
+        let size = level_size(size, level).map(|side| side.next_multiple_of(blocks.side));
         let target = wgpu::TexelCopyTextureInfo {
             mip_level: level,
             ..texture.as_image_copy()
@@ -147,7 +150,7 @@ pub(crate) fn halves_kernel(device: &Device, image: &Image) -> Kernel {
 /// As `wgsl/halves.wgsl` reads them.
 fn halves_words(image: &Image) -> Vec<u32> {
     let decode = srgb::decode_table();
-    let levels = Image::level_count(image.size);
+    let levels = level_count(image.size);
     let mut words = vec![0; 20];
     words[..3].copy_from_slice(&[image.size[0], image.size[1], levels]);
     for (level, texels) in image.mips.iter().enumerate() {
@@ -197,7 +200,7 @@ impl<'a> CpuRaster<'a> {
     fn level(&self, level: usize, uv: [f32; 2]) -> glam::Vec4 {
         let texels = &self.image.mips[level];
         let level = u32::try_from(level).unwrap_or(u32::MAX);
-        let [width, height] = Image::level_size(self.image.size, level).map(|side| side as usize);
+        let [width, height] = level_size(self.image.size, level).map(|side| side as usize);
         let (x0, x1, s) = neighbours(uv[0], width);
         let (y0, y1, t) = neighbours(uv[1], height);
         let texel = |x: usize, y: usize| {

@@ -1,6 +1,8 @@
 //! How the raster texture that a vector texture replaces is made: resvg at an exact scale, then a
 //! mip chain of linear-light averages.
 
+use std::sync::Arc;
+
 use anyhow::{Context as _, Result};
 use resvg::tiny_skia::{Pixmap, PremultipliedColorU8, Transform};
 use resvg::usvg;
@@ -83,6 +85,16 @@ fn texels(side: f32) -> u32 {
     (side.round() as u32).max(1)
 }
 
+/// Texels of a level of a texture: graphics cards round down, where files round up.
+pub(crate) fn level_size(size: [u32; 2], level: u32) -> [u32; 2] {
+    size.map(|side| side.checked_shr(level).unwrap_or(0).max(1))
+}
+
+/// Levels of a texture down to one texel.
+pub(crate) fn level_count(size: [u32; 2]) -> u32 {
+    size[0].max(size[1]).max(1).ilog2() + 1
+}
+
 fn with_mips(size: [u32; 2], pixmap: &Pixmap) -> Image {
     let transfer = Transfer::new();
     let mut mips: Vec<Vec<u8>> = vec![
@@ -92,15 +104,15 @@ fn with_mips(size: [u32; 2], pixmap: &Pixmap) -> Image {
             .flat_map(|&pixel| transfer.texel(pixel))
             .collect(),
     ];
-    for level in 1..Image::level_count(size) {
+    for level in 1..level_count(size) {
         let finer = mips.last().map_or(&[][..], Vec::as_slice);
-        let [from, to] = [level - 1, level].map(|level| Image::level_size(size, level));
+        let [from, to] = [level - 1, level].map(|level| level_size(size, level));
         mips.push(transfer.halved(finer, from.map(|n| n as usize), to.map(|n| n as usize)));
     }
     Image {
         rect_uv: [0.0, 0.0, 1.0, 1.0],
         size,
-        mips,
+        mips: Arc::new(mips),
     }
 }
 

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, ensure};
 use vtex_baker::{BakeConfig, Resources};
-use vtex_format::{BundleInfo, Directory, Image, Limits, Tag, directory};
+use vtex_format::{BundleInfo, Directory, Limits, Tag, directory};
 use vtex_shaders::{PackOptions, pack};
 
 use crate::report::{Cell, Table};
-use crate::subject::{RASTER_SIZE, name, parse, read, render};
+use crate::subject::{RASTER_SIZE, level_count, level_size, name, parse, read, render};
 
 /// Bytes of one MSDF of \[SFG22\]: 512 x 512 texels of three bytes, one a shape.
 const SFG22_SHAPE_BYTES: u64 = 512 * 512 * 3;
@@ -112,7 +112,7 @@ impl Sizes {
         })?;
         let pixmap = render(&parse(&svg, resources)?, RASTER_SIZE)?;
         let size = [pixmap.width(), pixmap.height()];
-        let levels = 0..Image::level_count(size);
+        let levels = 0..level_count(size);
         Ok(Self {
             shapes: file.shapes.len() as u64,
             file: bytes.len() as u64,
@@ -170,6 +170,6 @@ impl Sizes {
 }
 
 fn level_bytes(size: [u32; 2], level: u32) -> u64 {
-    let [width, height] = Image::level_size(size, level).map(u64::from);
+    let [width, height] = level_size(size, level).map(u64::from);
     4 * width * height
 }

@@ -174,8 +174,9 @@ pub(crate) struct BakeOptions {
     /// as curves
     #[arg(long, value_name = "PX", default_value_t = BakeConfig::default().error_px)]
     pub(crate) error: f64,
-    /// Texels along the longer side of mip 0, the largest of the mips that stand for the picture where
-    /// pixels are wider than its texels. Larger is faster and, in footprint mode, not sharper
+    /// Texels along the longer side of mip 0, rounded to a power of two: the largest of the mips that
+    /// stand for the picture where pixels are wider than its texels. Larger takes more memory and
+    /// answers wide pixels faster; in footprint mode it is not sharper
     #[arg(long, value_name = "N", default_value_t = BakeConfig::default().mip0_size)]
     pub(crate) size: u32,
     /// MSDF texels along the canvas' longer side; with --mode auto the largest number that is tried

@@ -133,7 +133,7 @@ impl Folder {
 
     fn images(&mut self, file: &VtexFile) -> Outcome<()> {
         for (index, image) in file.images.iter().enumerate() {
-            for (level, texels) in (0..).zip(&image.mips) {
+            for (level, texels) in (0..).zip(image.mips.iter()) {
                 let size_px = Image::level_size(image.size, level);
                 let name = format!("image-{index:03}-mip-{level:02}.png");
                 self.png(&name, size_px, &straight(texels))?;
