@@ -109,8 +109,8 @@ fn beyond_a_side_a_footprint_shows_the_side() {
         filter: FilterMode::Footprint,
         ..PackOptions::default()
     };
-    let words = pack(&steps(), &options);
-    let sampler = Sampler::new(&words);
+    let packed = pack(&steps(), &options);
+    let sampler = Sampler::new(&packed);
     let wide = [0.7, 0.0, 0.0, 0.2];
     for (u, side) in [(-0.1, 0.0), (1.2, 1.0)] {
         let beyond = sampler.sample([u, 0.5], wide);
