@@ -1,5 +1,7 @@
 //! Value to bytes and back is the identity, and the bytes are always the same.
 
+use std::sync::Arc;
+
 use vtex_format::{Codec, LayerRecord, Limits, Tag, VtexFile, directory, validate};
 
 use crate::sample;
@@ -20,6 +22,34 @@ fn round_trip(file: &VtexFile) {
 #[test]
 fn a_file_with_every_section() {
     round_trip(&sample::small());
+}
+
+#[test]
+fn equal_texels_are_stored_once() {
+    let mut file = sample::small();
+    let mut twin = file.images[1].clone();
+    twin.rect_uv = [0.5, 0.5, 0.75, 1.0];
+    // Equal, but not yet the same.
+    twin.mips = Arc::new(Vec::clone(&twin.mips));
+    file.images.push(twin);
+    round_trip(&file);
+    let bytes = file.to_bytes().unwrap();
+    let [_, image, twin] = VtexFile::parse(&bytes, &Limits::default())
+        .unwrap()
+        .images
+        .try_into()
+        .unwrap();
+    assert!(Arc::ptr_eq(&image.mips, &twin.mips));
+    let sections = directory(&bytes, &Limits::default()).unwrap().sections;
+    let levels = sections.iter().filter(|section| section.tag == Tag::MIPS);
+    assert_eq!(levels.count(), 3, "as many as without the second");
+}
+
+#[test]
+fn an_image_may_end_before_one_texel() {
+    let mut file = sample::small();
+    Arc::make_mut(&mut file.images[1].mips).truncate(1);
+    round_trip(&file);
 }
 
 #[test]
