@@ -204,6 +204,4 @@ fn dilated(fine: &Region, whole: &Region, filter: FilterMode) -> Region {
 }
 
 #[cfg(test)]
-mod clips_and_groups_tests;
-#[cfg(test)]
 mod tests;

@@ -1,5 +1,7 @@
 //! Fine cells against the records they are made from.
 
+mod clips_and_groups;
+
 use vtex_format::CurveHeader;
 
 use super::commands::{Order, write};

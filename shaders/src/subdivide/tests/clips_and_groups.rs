@@ -2,8 +2,8 @@
 
 use vtex_format::{CurveHeader, Entry, EntryKind};
 
-use super::outline::Region;
-use super::tests::Sample;
+use super::super::outline::Region;
+use super::Sample;
 use crate::layout::cmd;
 
 /// The record of all that lies left of x = 2000, and one of all that lies above y = 2000.
