@@ -17,9 +17,10 @@ const ROUNDING: f32 = 5e-5;
 /// Roundings of a place, in uv: a difference no larger than what the twin itself answers there is one.
 /// Steep gradients, texels and edges make differences of any size of them.
 const PLACE_ROUNDINGS: [f32; 3] = [1.2e-7, 4.8e-7, 1.9e-6];
-/// A lookup that reads texels may differ by this much more: samplers have sRGB decoders and weights of
-/// their own, of 8 bits on cards. 1.7e-3 was met on lavapipe.
-const TEXELS: f32 = 2e-3;
+/// A lookup that reads texels may differ by this much more: a card's weights have 8 bits, so along each of
+/// two axes they are off by up to 1 / 256 of the difference of two texels. 1.7e-3 was met on lavapipe and
+/// 5.3e-3 on the card.
+const TEXELS: f32 = 2.0 / 256.0;
 /// Share of lookups of a point that may fall on the other side of an edge: of 240,000 one did.
 const POINT_STRAYS: f64 = 2e-5;
 /// Share of lookups of a footprint of which samples may: of 2,000,000 nine did.

@@ -230,7 +230,11 @@ mod tests {
             for k in 1..Image::level_count(size) {
                 level = level.next_level(size, k);
                 let [width, height] = Image::level_size(size, k);
-                assert_eq!(level.texels.len(), (width * height) as usize, "{size:?} {k}");
+                assert_eq!(
+                    level.texels.len(),
+                    (width * height) as usize,
+                    "{size:?} {k}"
+                );
                 for (i, found) in (0..).zip(&level.texels) {
                     let range =
                         |place: u32, axis: usize| (place << k)..((place + 1) << k).min(size[axis]);

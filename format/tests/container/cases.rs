@@ -113,7 +113,7 @@ const CONTENT_CASES: &[FileCase] = &[
     }),
     (3030, |s| cut(&mut s[SPEC], 4)),
     (3031, |s| patch(&mut s[SPEC], 0, &[1])),
-    (3031, |s| patch(&mut s[SPEC], 0, &[3])),
+    (3031, |s| patch(&mut s[SPEC], 0, &[4])),
     (3038, |s| patch(&mut s[SPEC], 8, &[1])),
     (3038, |s| patch(&mut s[SPEC], 31, &[1])),
     (3040, |s| s[SHDR].refill(&[0; 8])),

@@ -66,7 +66,7 @@ fn no_step_between_footprints() {
 #[test]
 fn texels_are_linear_light_with_centres_at_one_half() {
     let mut file = row_of(1);
-    set_canvas(&mut file, [4, 1], |_, x, _| {
+    set_canvas(&mut file, [4, 4], |_, x, _| {
         [if x == 1 { 188 } else { 0 }, 0, 0, 255]
     });
     let peak = formula::decode(188.0 / 255.0);

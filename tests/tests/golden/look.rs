@@ -21,6 +21,9 @@ use crate::table::Fonts;
 const LONGER_PX: u32 = 64;
 /// Samples a pixel: their noise alone leaves 45 dB or so on drawings of this kind.
 const SPP: u32 = 64;
+/// Texels along the longer side of mip 0: one for each sample of the pictures, so that the mips are seen
+/// alone. The default is a quarter of that.
+const MIP0_SIZE: u32 = 8 * LONGER_PX;
 /// Samples along each side of the truth's pixels at zoom 8 where there are filters: resvg's time
 /// grows with the square of the size, for feMorphology with the fourth power. At zoom 1 so few would
 /// cost up to 16 dB.
@@ -97,7 +100,11 @@ pub(crate) fn look(svg: &[u8], fonts: Fonts, gpu: Option<&Gpu>) -> Result<Found,
         fonts: Arc::clone(&fonts),
         ..Resources::default()
     };
-    let file = bake(svg, &BakeConfig::default(), &resources).map_err(|error| error.to_string())?;
+    let config = BakeConfig {
+        mip0_size: MIP0_SIZE,
+        ..BakeConfig::default()
+    };
+    let file = bake(svg, &config, &resources).map_err(|error| error.to_string())?;
     let bytes = file.to_bytes().map_err(|error| error.to_string())?;
     let reference = Reference::parse(svg, fonts, Edges::Crisp)?;
     let close_samples = match svg.windows(6).any(|word| word == b"filter") {
