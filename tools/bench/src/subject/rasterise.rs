@@ -13,15 +13,17 @@ use vtex_shaders::srgb;
 /// Steps of the table that encodes linear light; a step is at most a twentieth of a byte's.
 const ENCODE_STEPS: usize = 1 << 16;
 
-/// The canvas with `longer_side` texels along its longer side.
+/// The canvas with `longer_side` texels along its longer side, its levels as a file has them.
 pub(crate) fn rasterise(svg: &[u8], resources: &Resources, longer_side: u32) -> Result<Image> {
     let tree = parse(svg, resources)?;
     let pixmap = render(&tree, longer_side)?;
-    Ok(with_mips([pixmap.width(), pixmap.height()], &pixmap))
+    let size = [pixmap.width(), pixmap.height()];
+    let levels = (0..Image::level_count(size)).map(|level| Image::level_size(size, level));
+    Ok(with_mips(&pixmap, levels))
 }
 
-/// As [`rasterise`], with both sides rounded to a multiple of `multiple`: the drawing is stretched
-/// by less than that many texels.
+/// As [`rasterise`], with levels as graphics cards have them and both sides rounded to a multiple of
+/// `multiple`: the drawing is stretched by less than that many texels.
 pub(crate) fn rasterise_in_blocks(
     tree: &usvg::Tree,
     longer_side: u32,
@@ -29,7 +31,8 @@ pub(crate) fn rasterise_in_blocks(
 ) -> Result<Image> {
     let size = size_for(tree, longer_side)
         .map(|side| (side + multiple / 2).max(multiple) / multiple * multiple);
-    Ok(with_mips(size, &render_at(tree, size)?))
+    let levels = (0..level_count(size)).map(|level| level_size(size, level));
+    Ok(with_mips(&render_at(tree, size)?, levels))
 }
 
 /// Parses the SVG as resvg does, with the fonts that a bake chooses and without outside images.
@@ -95,7 +98,9 @@ pub(crate) fn level_count(size: [u32; 2]) -> u32 {
     size[0].max(size[1]).max(1).ilog2() + 1
 }
 
-fn with_mips(size: [u32; 2], pixmap: &Pixmap) -> Image {
+/// `levels`: the size of each, the finest first.
+fn with_mips(pixmap: &Pixmap, levels: impl Iterator<Item = [u32; 2]>) -> Image {
+    let size = [pixmap.width(), pixmap.height()];
     let transfer = Transfer::new();
     let mut mips: Vec<Vec<u8>> = vec![
         pixmap
@@ -104,10 +109,11 @@ fn with_mips(size: [u32; 2], pixmap: &Pixmap) -> Image {
             .flat_map(|&pixel| transfer.texel(pixel))
             .collect(),
     ];
-    for level in 1..level_count(size) {
+    let mut from = size.map(|side| side as usize);
+    for to in levels.skip(1).map(|level| level.map(|side| side as usize)) {
         let finer = mips.last().map_or(&[][..], Vec::as_slice);
-        let [from, to] = [level - 1, level].map(|level| level_size(size, level));
-        mips.push(transfer.halved(finer, from.map(|n| n as usize), to.map(|n| n as usize)));
+        mips.push(transfer.halved(finer, from, to));
+        from = to;
     }
     Image {
         rect_uv: [0.0, 0.0, 1.0, 1.0],

@@ -20,8 +20,7 @@ const CARD_FILM: [u32; 2] = [1280, 720];
 const SOFTWARE_FILM: [u32; 2] = [240, 160];
 /// Samples per pixel in a run.
 const SAMPLES: u32 = 4;
-/// Longer side of the raster textures. Four of them at 2048, as half floats with their mips, exceed
-/// a binding of core WebGPU.
+/// Longer side of the raster textures: a raster that a scene with several textures can afford.
 const RASTER_SIZE: u32 = 1024;
 /// Objects of the showroom that take a texture.
 const SHOWROOM: usize = 4;
@@ -39,8 +38,8 @@ pub(crate) fn rays_table(
     let mut table = Table::new("Rays of the path tracer", &columns);
     table.note(format!(
         "{} x {} pixels, {SAMPLES} samples each, up to {} bounces, ray-cone footprints. The raster \
-         is half floats with mips in a storage buffer, filtered by the same evaluator: the tracer \
-         takes no other texture.",
+         is a canvas image with mips, behind the same evaluator and sampler: the tracer takes no \
+         other texture.",
         film[0],
         film[1],
         TraceOptions::default().max_bounces,

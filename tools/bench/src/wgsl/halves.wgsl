@@ -1,4 +1,5 @@
-// Trilinear by hand from half floats in a storage buffer, as a packed texture holds its mips.
+// Trilinear by hand from half floats in a storage buffer, as packed textures held their mips
+// before decision 0020.
 // Words: width, height, level count, 0, first word of each of 16 levels, texels of two words.
 
 @group(0) @binding(0) var<storage, read> words: array<u32>;
