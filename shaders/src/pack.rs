@@ -71,13 +71,7 @@ pub fn pack_set<'a>(
     for (file, options) in textures {
         first_words.push(word_index(words.len()));
         let texture = texture_words(file, options);
-        images.extend(image_levels(
-            &mut levels,
-            words.len(),
-            &texture,
-            file,
-            options,
-        ));
+        images.extend(image_levels(&mut levels, words.len(), &texture, file));
         // One texture alone is not copied.
         match words.is_empty() {
             true => words = texture,
@@ -297,12 +291,12 @@ fn image_levels<'a>(
     first: usize,
     texture: &[u32],
     file: &'a VtexFile,
-    options: &PackOptions,
 ) -> Vec<Unplaced> {
-    let records = first + texture[header::IMAGES as usize] as usize;
-    let address = options.applied_to(&file.meta.sampler).address;
-    let repeats = address.map(|mode| mode == AddressMode::Repeat);
-    let has_canvas = spec_key(file, options).features & Features::MIPS != 0;
+    let word = |at: u32| texture[at as usize];
+    let records = first + word(header::IMAGES) as usize;
+    let address = [word(header::ADDRESS_U), word(header::ADDRESS_U + 1)];
+    let repeats = address.map(|mode| mode == AddressMode::Repeat as u32);
+    let has_canvas = word(header::FEATURES) & Features::MIPS != 0;
     // Texels that images share are packed once.
     let mut packed = BTreeMap::new();
     let images = file.images.iter().enumerate().map(|(index, stored)| {

@@ -5,8 +5,8 @@ use crate::texels::TexelPages;
 /// A texture as evaluators read it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Packed {
-    /// Laid out as [`header`](crate::layout::header) says, with every offset relative to the first. Their number is a multiple
-    /// of four, as is to be the index of the first in a larger buffer.
+    /// Laid out as [`header`](crate::layout::header) says, with every offset relative to the first.
+    /// Their number is a multiple of four, as is to be the index of the first in a larger buffer.
     pub words: Vec<u32>,
     /// The texels of its images.
     pub texels: TexelPages,

@@ -34,8 +34,8 @@ pub fn fragment(key: &SpecKey, slot: BindingSlot) -> String {
 /// WGSL of the standalone batch kernel, entry point `vtex_batch`.
 ///
 /// Group 0: bindings 0 to 2 the texture as in [`fragment`], binding 3 an array of
-/// [`crate::layout::BatchQuery`], binding 4 the results, an array of `vec4f`. [`batch_dispatch`] gives the workgroup counts; queries
-/// beyond either array's end are passed over.
+/// [`crate::layout::BatchQuery`], binding 4 the results, an array of `vec4f`. [`batch_dispatch`] gives
+/// the workgroup counts; queries beyond either array's end are passed over.
 pub fn batch_kernel(key: &SpecKey) -> String {
     linked("root/batch", &context(key, BindingSlot::default()))
 }

@@ -33,8 +33,6 @@ pub(crate) struct Level<'a> {
     /// Row by row.
     pub(crate) texels: &'a [u8],
     pub(crate) size: [u32; 2],
-    /// Texels that lookups reach, no fewer: the last ones are repeated as far.
-    pub(crate) reach: [u32; 2],
     /// Axes along which the border shows the other side; along others it repeats the last texel.
     pub(crate) wraps: [bool; 2],
 }
@@ -42,12 +40,13 @@ pub(crate) struct Level<'a> {
 impl Level<'_> {
     /// The texel along an axis that shows at `index`, counted from the border.
     fn shown(&self, index: u32, axis: usize) -> usize {
+        let side = self.size[axis];
         let inside = if self.wraps[axis] {
-            (index + self.reach[axis] - BORDER) % self.reach[axis]
+            (index + side - BORDER) % side
         } else {
-            index.saturating_sub(BORDER)
+            index.saturating_sub(BORDER).min(side - 1)
         };
-        inside.min(self.size[axis] - 1) as usize
+        inside as usize
     }
 }
 
@@ -71,7 +70,7 @@ impl TexelPages {
     pub(crate) fn filled(levels: &[Level<'_>]) -> (Self, Vec<Place>) {
         let rooms: Vec<[u32; 2]> = levels
             .iter()
-            .map(|level| level.reach.map(|side| side + 2 * BORDER))
+            .map(|level| level.size.map(|side| side + 2 * BORDER))
             .collect();
         let arranged = arrange(&rooms);
         let mut pages = Self::new(arranged.page, arranged.count);
@@ -108,7 +107,7 @@ impl TexelPages {
 
     /// Copies a level and its border.
     fn fill(&mut self, level: &Level<'_>, place: &Place) {
-        let [width, height] = level.reach.map(|side| side + 2 * BORDER);
+        let [width, height] = level.size.map(|side| side + 2 * BORDER);
         let row_bytes = TEXEL_BYTES * level.size[0] as usize;
         for y in 0..height {
             let from = row_bytes * level.shown(y, 1);
@@ -153,11 +152,9 @@ pub(crate) fn levels_of(image: &Image, wraps: [bool; 2]) -> (u32, Vec<Level<'_>>
         .map(|(level, texels)| Level {
             texels,
             size: Image::level_size(image.size, level),
-            // A lookup's place is that in level 0 over a power of two.
-            reach: image.size.map(|side| side.div_ceil(1 << level).max(1)),
             wraps,
         });
-    let too_large = |level: &Level<'_>| level.reach.iter().any(|&s| s > MAX_PAGE_SIDE - 2 * BORDER);
+    let too_large = |level: &Level<'_>| level.size.iter().any(|&s| s > MAX_PAGE_SIDE - 2 * BORDER);
     let levels: Vec<Level<'_>> = sized.skip_while(too_large).collect();
     let left_out = image.mips.len().min(MAX_MIPS as usize) - levels.len();
     (u32::try_from(left_out).unwrap_or(u32::MAX), levels)
@@ -173,7 +170,6 @@ mod tests {
         Level {
             texels,
             size,
-            reach: size,
             wraps,
         }
     }

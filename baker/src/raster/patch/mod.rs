@@ -118,7 +118,8 @@ impl Outcome {
             feature: subtree.feature,
             element: &subtree.element,
         };
-        match window.item(pixmap, settings, source) {
+        let shown = window.picture(pixmap);
+        match shown.map(|(picture, rect)| settings.item(picture, rect, source)) {
             Some(Item::Image(patch)) => Self::Patch(patch, density, reason::of(subtree)),
             Some(shape) => Self::Item(shape),
             None => Self::Nothing,
@@ -166,7 +167,8 @@ pub(crate) fn of_shape(shape: &Shape, settings: PatchSettings, share: f64) -> Op
         feature: SHAPE_FEATURE,
         element: &shape.element,
     };
-    window.image(pixmap, settings, source)
+    let (picture, rect) = window.picture(pixmap)?;
+    Some(settings.image(picture, rect, source))
 }
 
 /// The whole canvas as one patch, and a warning if it is coarse. `paint` makes the picture at a

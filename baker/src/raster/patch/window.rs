@@ -5,14 +5,10 @@ use tiny_skia::Pixmap;
 
 use super::{
     density::PatchSettings,
-    finish::Source,
     shown::{Texels, shown_part},
     skia::View,
 };
-use crate::{
-    drawing::{ImageItem, Item},
-    raster::{detail, mips::LinearImage, texel},
-};
+use crate::raster::{detail, mips::LinearImage, texel};
 
 /// Codes by which neighbouring texels of soft pictures differ at most.
 const MAX_SOFT: u8 = 4;
@@ -70,31 +66,9 @@ impl Window {
         }
     }
 
-    /// The painted window as an item that is no larger and no finer than it has to be; `None` when
-    /// nothing shows.
-    pub(super) fn item(
-        &self,
-        pixmap: Pixmap,
-        settings: PatchSettings,
-        source: Source<'_>,
-    ) -> Option<Item> {
-        let (picture, rect) = self.picture(pixmap)?;
-        Some(settings.item(picture, rect, source))
-    }
-
-    /// As [`Self::item`], an image in any case.
-    pub(super) fn image(
-        &self,
-        pixmap: Pixmap,
-        settings: PatchSettings,
-        source: Source<'_>,
-    ) -> Option<ImageItem> {
-        let (picture, rect) = self.picture(pixmap)?;
-        Some(settings.image(picture, rect, source))
-    }
-
-    /// The part of the painted window that shows, and where it lies.
-    fn picture(&self, mut pixmap: Pixmap) -> Option<(LinearImage, Rect)> {
+    /// The part of the painted window that shows, no finer than it has to be, and where it lies; `None`
+    /// when nothing shows.
+    pub(super) fn picture(&self, mut pixmap: Pixmap) -> Option<(LinearImage, Rect)> {
         self.clear_border(&mut pixmap);
         let texels = pixmap.data().as_chunks::<4>().0;
         // Within the window there is a transparent border except along the edges of the canvas.

@@ -45,7 +45,7 @@ pub(super) const ONLY_RUST: &[(&str, &[&str], &str)] = &[
     ("rows.rs", &["mean"], "a part of vtex_samples_uv"),
     (
         "sample.rs",
-        &["lookup"],
+        &["lookup", "placed"],
         "a part of vtex_sample_at that tests use too",
     ),
     (
