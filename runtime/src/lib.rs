@@ -31,7 +31,7 @@ pub use scene::{
 pub use tracer::{
     Background, Film, LightSampling, RayHit, RayQuery, ToneMap, TraceOptions, TraceStats, Tracer,
 };
-pub use vtex_shaders::layout::{BatchQuery, FilterMode};
+pub use vtex_shaders::layout::{BatchQuery, FilterMode, FootprintSamples};
 
 // The crates whose types stand in signatures here, so that their versions always fit.
 pub use {vtex_format, wgpu};

@@ -33,8 +33,11 @@ shared_constants! {
 mod header = "HEADER" {
     /// [`vtex_format::SHADER_ABI`].
     ABI = 0;
-    /// Bits of [`vtex_format::Features`].
+    /// Bits of [`vtex_format::Features`], and samples as [`header::SAMPLES_SHIFT`](super::header::SAMPLES_SHIFT) says.
     FEATURES = 1;
+    /// From this bit of the features' word on: the logarithm to the base of two of the samples of a
+    /// footprint.
+    SAMPLES_SHIFT = 26;
     /// [`vtex_format::AddressMode`] along u.
     ADDRESS_U = 2;
     /// [`vtex_format::AddressMode`] along v.
@@ -226,12 +229,10 @@ mod cmd = "CMD" {
 
 /// The samples of a footprint, a bit each: bit 4 k + j of a mask is sample j of row k.
 mod rows = "ROWS" {
-    /// Rows of samples.
-    ROWS = 8;
     /// Samples of a row.
     COLUMNS = 4;
-    /// All samples.
-    SAMPLES = ROWS * COLUMNS;
+    /// The most that a footprint has.
+    SAMPLES = 32;
     /// A mask of all samples.
     EVERY = u32::MAX;
     /// How many eighths of a column the samples of a row lie further right than those of the row
@@ -382,10 +383,24 @@ pub enum FilterMode {
     /// The picture at the lookup's place, with hard edges: the caller's samples antialias.
     #[default]
     Point = 0,
-    /// The mean of the picture over the footprint, from 32 samples.
+    /// The mean of the picture over the footprint, from as many samples as [`FootprintSamples`] says.
     Footprint = 1,
     /// As point, but edges of MSDFs are \[SFG22\] eq. 1: a smoothstep of constant half width S.
     Paper = 2,
+}
+
+/// How many samples of the picture make the mean over a footprint. Fewer are faster and noisier: one of
+/// n at an edge is right within a 1 / n of its two sides' difference (docs/decisions/0016 has figures).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u32)]
+pub enum FootprintSamples {
+    /// 8 samples.
+    Eight = 8,
+    /// 16 samples.
+    Sixteen = 16,
+    /// 32 samples.
+    #[default]
+    ThirtyTwo = 32,
 }
 
 /// One query of the batch kernel, 32 bytes.

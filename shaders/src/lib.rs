@@ -31,7 +31,7 @@ pub mod srgb;
 mod subdivide;
 mod texels;
 
-pub use layout::{BatchQuery, FilterMode};
+pub use layout::{BatchQuery, FilterMode, FootprintSamples};
 pub use link::{LinkContext, LinkError, link};
 pub use pack::{PackOptions, pack, pack_set};
 pub use packed::{Packed, PackedSet};

@@ -9,7 +9,7 @@ use vtex_format::{
 };
 
 use crate::cpu::{color, to_f32, to_u32};
-use crate::layout::{FilterMode, OFFSET_END, gradient, header, image, paint};
+use crate::layout::{FilterMode, FootprintSamples, OFFSET_END, gradient, header, image, paint};
 use crate::packed::{Packed, PackedSet};
 use crate::spec::spec_key;
 use crate::subdivide::subdivide;
@@ -32,6 +32,8 @@ pub struct PackOptions {
     /// How often the file's cells are halved where they show edges, at most 6, instead of what the
     /// cost model finds best for each of them (docs/decisions/0019).
     pub halvings: Option<u32>,
+    /// How many samples a footprint has, where `filter` is [`FilterMode::Footprint`].
+    pub samples: FootprintSamples,
 }
 
 impl PackOptions {
@@ -130,7 +132,8 @@ fn header_words(file: &VtexFile, options: &PackOptions, key: &SpecKey) -> Vec<u3
         words[at as usize..][..values.len()].copy_from_slice(values);
     };
     put(header::ABI, &[SHADER_ABI]);
-    put(header::FEATURES, &[key.features]);
+    let samples = (options.samples as u32).ilog2() << header::SAMPLES_SHIFT;
+    put(header::FEATURES, &[key.features | samples]);
     put(header::FILTER, &[options.filter as u32]);
     put(header::ADDRESS_U, &sampler.address.map(|mode| mode as u32));
     put(

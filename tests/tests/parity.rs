@@ -5,7 +5,8 @@ use std::borrow::Cow;
 use vtex_baker::{BakeConfig, Resources, bake};
 use vtex_format::{DistanceOutline, Features, SpecKey, VtexFile};
 use vtex_shaders::{
-    BatchQuery, FilterMode, PackOptions, batch_kernel, pack, pack_set, shader_blob, spec_key,
+    BatchQuery, FilterMode, FootprintSamples, PackOptions, batch_kernel, pack, pack_set,
+    shader_blob, spec_key,
 };
 use vtex_tests::clips_and_groups::{Drawing, Wants};
 use vtex_tests::fixture::random_texture;
@@ -87,11 +88,31 @@ struct Lookups {
 }
 
 fn check_file(gpu: &Gpu, name: &str, file: &VtexFile, lookups: &Lookups) -> Parities {
-    let filters = [FilterMode::Point, FilterMode::Footprint, FilterMode::Paper];
+    let [point, footprint, paper] = lookups.counts;
+    let modes = [
+        (FilterMode::Point, FootprintSamples::default(), point),
+        (
+            FilterMode::Footprint,
+            FootprintSamples::ThirtyTwo,
+            footprint,
+        ),
+        (
+            FilterMode::Footprint,
+            FootprintSamples::Sixteen,
+            footprint / 4,
+        ),
+        (
+            FilterMode::Footprint,
+            FootprintSamples::Eight,
+            footprint / 4,
+        ),
+        (FilterMode::Paper, FootprintSamples::default(), paper),
+    ];
     let mut parities = Parities::default();
-    for (filter, count) in filters.into_iter().zip(lookups.counts) {
+    for (filter, samples, count) in modes {
         let options = PackOptions {
             filter,
+            samples,
             ..PackOptions::default()
         };
         let key = spec_key(file, &options);

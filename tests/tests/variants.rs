@@ -7,7 +7,8 @@ use std::io::Write as _;
 use rayon::prelude::*;
 use vtex_format::{Features, SpecKey, VtexFile};
 use vtex_shaders::{
-    BatchQuery, FilterMode, PackOptions, Packed, kernel_key, pack, pack_set, spec_key,
+    BatchQuery, FilterMode, FootprintSamples, PackOptions, Packed, kernel_key, pack, pack_set,
+    spec_key,
 };
 use vtex_tests::fixture::random_texture;
 use vtex_tests::gpu::Gpu;
@@ -19,6 +20,13 @@ const LOOKUPS: u32 = 2000;
 /// The loader's choices, of which no file says anything.
 const FILTERS: u32 = Features::FOOTPRINT | Features::PAPER;
 
+/// Texts take them in turn.
+const SAMPLES: [FootprintSamples; 3] = [
+    FootprintSamples::ThirtyTwo,
+    FootprintSamples::Sixteen,
+    FootprintSamples::Eight,
+];
+
 /// A texture for one filter mode.
 struct Texture {
     file: VtexFile,
@@ -29,9 +37,10 @@ struct Texture {
 }
 
 impl Texture {
-    fn new(file: &VtexFile, filter: FilterMode) -> Self {
+    fn new(file: &VtexFile, filter: FilterMode, samples: FootprintSamples) -> Self {
         let options = PackOptions {
             filter,
+            samples,
             // Enough to have fine cells, and soon packed.
             halvings: Some(1),
             ..PackOptions::default()
@@ -75,7 +84,7 @@ fn texture(index: usize, features: u32) -> VtexFile {
     }
     let queries = random_queries(index as u64, 100, 0.5);
     let is_good = |file: &VtexFile| {
-        let texture = Texture::new(file, FilterMode::Point);
+        let texture = Texture::new(file, FilterMode::Point, FootprintSamples::default());
         let key = kernel_key(&spec_key(file, &PackOptions::default()));
         let colors = texture.subject().twin(&queries);
         let shows = colors.iter().any(|color| *color != colors[0]);
@@ -98,7 +107,8 @@ fn poorer(index: usize, mut features: u32, filter: FilterMode) -> Texture {
     if features & Features::GROUPS == 0 {
         features &= !(Features::BLENDS | Features::DEEP_GROUPS);
     }
-    Texture::new(&random_texture(!index as u64, features), filter)
+    let file = random_texture(!index as u64, features);
+    Texture::new(&file, filter, SAMPLES[(index + 1) % SAMPLES.len()])
 }
 
 /// All textures in one buffer, one after the other, as those of a scene are.
@@ -158,7 +168,8 @@ fn texts_agree_with_the_twin() {
         let features = variants[index].features;
         let file = texture(index, features);
         let modes = modes(features);
-        let packed = modes.iter().map(|&mode| Texture::new(&file, mode));
+        let samples = SAMPLES[index % SAMPLES.len()];
+        let packed = modes.iter().map(|&mode| Texture::new(&file, mode, samples));
         let mut textures: Vec<Texture> = packed.collect();
         let other = variants[variants.len() - 1 - index].features;
         textures.push(poorer(index, features & other, modes[modes.len() - 1]));

@@ -135,8 +135,8 @@ pub(crate) fn picture(file: &VtexFile, size: [u32; 2]) -> LinearImage {
         filter: FilterMode::Point,
         address: Some([AddressMode::Clamp; 2]),
         texture_matrix: Some([1.0, 0.0, 0.0, 1.0, 0.0, 0.0]),
-        smoothing: None,
         halvings: Some(effort.halvings),
+        ..PackOptions::default()
     };
     let packed = pack(file, &options);
     let texels = Texels::new(Sampler::new(&packed), size, effort.lookups);

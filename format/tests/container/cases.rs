@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use vtex_format::{
     CurveLattice, DistanceOutline, Entry, EntryKind, Features, Grid, ISSUES, Image, Issue,
-    LayerRecord, Limits, MsdfError, ReadError, Tag, VtexFile, validate,
+    LayerRecord, Limits, MsdfError, ReadError, SHADER_ABI, Tag, VtexFile, validate,
 };
 
 use crate::forge::{Forged, hash, put_together, seal, take_apart};
@@ -113,7 +113,9 @@ const CONTENT_CASES: &[FileCase] = &[
     }),
     (3030, |s| cut(&mut s[SPEC], 4)),
     (3031, |s| patch(&mut s[SPEC], 0, &[1])),
-    (3031, |s| patch(&mut s[SPEC], 0, &[4])),
+    (3031, |s| {
+        patch(&mut s[SPEC], 0, &(SHADER_ABI + 1).to_le_bytes());
+    }),
     (3038, |s| patch(&mut s[SPEC], 8, &[1])),
     (3038, |s| patch(&mut s[SPEC], 31, &[1])),
     (3040, |s| s[SHDR].refill(&[0; 8])),

@@ -11,7 +11,7 @@ use super::rows::{CellRows, Phase, Rows, extent};
 use super::samples::{Point, Samples};
 use super::walk::{Resolved, walk};
 use super::{Lookup, Sampler, groups, mapping, paint, paper};
-use crate::layout::rows::{EVERY, SAMPLES};
+use crate::layout::rows::SAMPLES;
 use crate::layout::{cell, cmd, filter};
 
 /// Farther than any place in cells.
@@ -73,10 +73,12 @@ fn average(
     if pass.whole && pass.word >> cell::TAG_SHIFT < cell::LIST {
         return point(sampler, lookup, pass.word, canvas.centre, observer);
     }
-    canvas.rows = Rows::new(canvas.centre, lookup.axes, Phase::new(p, lookup.axes));
+    let halvings = sampler.settings.halvings;
+    let phase = Phase::new(p, lookup.axes);
+    canvas.rows = Rows::new(canvas.centre, lookup.axes, phase, halvings);
     let mut sum = [0.0; 4];
     let mut count = 0.0;
-    let mut live = EVERY;
+    let mut live = canvas.rows.every();
     let mut own = 0;
     for _ in 0..=SAMPLES {
         let mask = if pass.whole {
@@ -99,10 +101,10 @@ fn average(
                 break;
             }
             // None is on the canvas: the lookup's own place stands for all.
-            canvas.rows = Rows::new(canvas.centre, [0.0; 4], Phase::default());
+            canvas.rows = Rows::new(canvas.centre, [0.0; 4], Phase::default(), halvings);
             canvas.low = [-FAR; 2];
             canvas.high = [FAR; 2];
-            live = EVERY;
+            live = canvas.rows.every();
         }
         let next = live.trailing_zeros();
         own = 1 << next;
@@ -220,8 +222,8 @@ pub(super) fn places(sampler: &Sampler<'_>, lookup: &Lookup) -> Vec<Vec2> {
         high,
         ..
     } = Canvas::new(sampler, lookup, p);
-    let rows = Rows::new(centre, lookup.axes, Phase::new(p, lookup.axes));
-    let samples = (0..SAMPLES).map(|index| rows.place(index));
+    let rows = Rows::new(centre, lookup.axes, Phase::new(p, lookup.axes), s.halvings);
+    let samples = (0..1 << s.halvings).map(|index| rows.place(index));
     let on = |place: &Vec2| (0..2).all(|i| low[i] <= place[i] && place[i] < high[i]);
     let mut places: Vec<Vec2> = samples.filter(on).collect();
     if places.is_empty() {

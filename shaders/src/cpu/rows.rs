@@ -1,7 +1,7 @@
 //! Twin of `vtex/samples_rows.wgsl`: the samples of a footprint.
 //!
-//! A footprint's parallelogram has eight rows of four samples, and bit i = 4 k + j of a mask is sample
-//! j of row k. Its first axis is horizontal. The samples go down evenly from one to the next, so those
+//! A footprint's parallelogram has rows of four samples, eight of them or fewer, and bit i = 4 k + j of
+//! a mask is sample j of row k. Its first axis is horizontal. The samples go down evenly from one to the next, so those
 //! between two heights are a range of bits; and no two have the same x.
 
 use super::math::{clamp, to_f32, to_u32};
@@ -9,7 +9,7 @@ use super::plane::{Vec2, cross, point, sub};
 use super::samples::{Samples, base};
 use super::{Lookup, Sampler};
 use crate::layout::cmd::{DOWN_BIT, EVEN_ODD_BIT};
-use crate::layout::rows::{COLUMNS, EVERY, ROWS, SAMPLES, SHIFT};
+use crate::layout::rows::{COLUMNS, EVERY, SAMPLES, SHIFT};
 
 /// A row and a column are no smaller, in cells.
 const LEAST: f32 = 1e-12;
@@ -41,6 +41,8 @@ pub(super) struct Rows {
     pitch: f32,
     /// How far right in their columns the samples of the first row lie, in eighths.
     shift: u32,
+    /// How many there are.
+    samples: u32,
 }
 
 /// No sample lies farther from the centre, in cells, along x and along y. A bound without a root: the
@@ -80,8 +82,8 @@ impl Phase {
 }
 
 impl Rows {
-    /// About `centre`; `axes` are those of the footprint.
-    pub(super) fn new(centre: Vec2, axes: [f32; 4], phase: Phase) -> Self {
+    /// About `centre`; `axes` are those of the footprint, and it has 2 to `halvings` samples.
+    pub(super) fn new(centre: Vec2, axes: [f32; 4], phase: Phase, halvings: u32) -> Self {
         let [ax, ay, bx, by] = axes;
         let xy = ax * ay + bx * by;
         let yy = ay * ay + by * by;
@@ -95,17 +97,22 @@ impl Rows {
             (ax * by - ay * bx).abs() * per_height
         };
         let lean = if level { 0.0 } else { xy * per_height };
-        let dy = height * (1.0 / to_f32(SAMPLES));
-        let dx = lean * (1.0 / to_f32(ROWS));
+        let samples = 1 << halvings;
+        let count = to_f32(samples);
+        // The inverse of the count, exactly.
+        let part = f32::from_bits((127 - halvings) << 23);
+        let dy = height * part;
+        let dx = lean * (to_f32(COLUMNS) * part);
         let pitch = (width * (1.0 / to_f32(COLUMNS))).max(LEAST);
         Self {
-            y: centre[1] + (phase.moved[1] - 15.5) * dy,
+            y: centre[1] + (phase.moved[1] - (0.5 * count - 0.5)) * dy,
             dy,
-            per_y: to_f32(SAMPLES) * per_height,
-            x: centre[0] - 3.875 * dx + (0.125 * phase.moved[0] - 2.0) * pitch,
+            per_y: count * per_height,
+            x: centre[0] - (0.125 * count - 0.125) * dx + (0.125 * phase.moved[0] - 2.0) * pitch,
             dx,
             pitch,
             shift: phase.shift,
+            samples,
         }
     }
 
@@ -119,6 +126,7 @@ impl Rows {
             dx: self.dx * units,
             pitch: self.pitch * units,
             shift: self.shift,
+            samples: self.samples,
         }
     }
 
@@ -126,7 +134,7 @@ impl Rows {
     /// height one counts.
     fn above(&self, y: f32) -> u32 {
         let count = ((y - self.y) * self.per_y).ceil();
-        to_u32(clamp(count, 0.0, to_f32(SAMPLES)))
+        to_u32(clamp(count, 0.0, to_f32(self.samples)))
     }
 
     /// Left end of a row's columns, less a half of an eighth, as its samples have it.
@@ -153,6 +161,11 @@ impl Rows {
         mask & first_of(end) & !first_of(first)
     }
 
+    /// The bits of all.
+    pub(super) fn every(&self) -> u32 {
+        EVERY >> (SAMPLES - self.samples)
+    }
+
     /// Where a sample lies.
     pub(super) fn place(&self, index: u32) -> Vec2 {
         let across = self.across()[(index % COLUMNS) as usize];
@@ -170,7 +183,7 @@ impl Rows {
         let [one, right, two] = COLUMN_BITS.map(count);
         let place = one + 2.0 * right;
         let column = right + 2.0 * two;
-        let down = (row + 0.25 * place) * per_whole - 3.875;
+        let down = (row + 0.25 * place) * per_whole - (0.125 * to_f32(self.samples) - 0.125);
         let across = column * per_whole - 1.5;
         [
             down * self.dx + across * self.pitch,
@@ -226,13 +239,15 @@ impl CellRows {
         let s = &sampler.settings;
         let [units, margin] = s.curve_lattice;
         let scaled = rows.scaled(units, cell.map(|c| margin - c * units));
+        // From the first row's left end to that of the last sample's.
+        let lean = (0.25 * to_f32(rows.samples) - 0.25) * scaled.dx;
         Self {
             rows: *rows,
             cell,
             uv: [lookup.uv, s.scale.map(|scale| 1.0 / scale)],
             units: scaled,
-            left: scaled.x + (7.75 * scaled.dx).min(0.0),
-            right: scaled.x + (7.75 * scaled.dx).max(0.0) + 4.0 * scaled.pitch,
+            left: scaled.x + lean.min(0.0),
+            right: scaled.x + lean.max(0.0) + 4.0 * scaled.pitch,
             centre: [centre[0] - cell[0], centre[1] - cell[1]],
         }
     }

@@ -3,6 +3,7 @@
 use vtex_format::Features;
 
 use super::words::word_of;
+use crate::layout::rows::SAMPLES;
 use crate::layout::{cmd, header, paint};
 
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +40,8 @@ pub(super) struct Settings {
     /// Units of the curve lattice along a cell, and around it.
     pub(super) curve_lattice: [f32; 2],
     pub(super) features: u32,
+    /// The logarithm to the base of two of the samples of a footprint.
+    pub(super) halvings: u32,
 }
 
 impl Settings {
@@ -73,6 +76,8 @@ impl Settings {
             mip_last_level: word(header::MIP_SIZE + 2),
             curve_lattice: float2(header::CURVE_UNITS),
             features: word(header::FEATURES),
+            // No more than a mask has bits, whatever the words say.
+            halvings: (word(header::FEATURES) >> header::SAMPLES_SHIFT).min(SAMPLES.ilog2()),
         };
         if settings.has(Features::OUTLINE) {
             let index = settings.outline_paint;

@@ -2,6 +2,7 @@
 
 const VTEX_HEADER_ABI: u32 = 0u;
 const VTEX_HEADER_FEATURES: u32 = 1u;
+const VTEX_HEADER_SAMPLES_SHIFT: u32 = 26u;
 const VTEX_HEADER_ADDRESS_U: u32 = 2u;
 const VTEX_HEADER_ADDRESS_V: u32 = 3u;
 const VTEX_HEADER_FILTER: u32 = 4u;
@@ -83,7 +84,6 @@ const VTEX_CMD_LAST_BIT: u32 = 0x40000000u;
 const VTEX_CMD_OPAQUE_BIT: u32 = 0x80000000u;
 const VTEX_CMD_LIMIT: u32 = 0x8000u;
 
-const VTEX_ROWS_ROWS: u32 = 8u;
 const VTEX_ROWS_COLUMNS: u32 = 4u;
 const VTEX_ROWS_SAMPLES: u32 = 32u;
 const VTEX_ROWS_EVERY: u32 = 0xffffffffu;

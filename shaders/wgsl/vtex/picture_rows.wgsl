@@ -109,10 +109,11 @@ fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
         }
         return vec4f(0.0);
     }
-    var rows = vtex_rows(centre, axes, vtex_rows_phase(p, axes));
+    let halvings = vt.features >> VTEX_HEADER_SAMPLES_SHIFT;
+    var rows = vtex_rows(centre, axes, vtex_rows_phase(p, axes), halvings);
     var sum = vec4f(0.0);
     var count = 0.0;
-    var live = VTEX_SAMPLES_EVERY;
+    var live = vtex_rows_every(rows.samples);
     var own = 0u;
     for (var i = 0u; i <= VTEX_ROWS_SAMPLES; i += 1u) {
         let high = vec2f(here.high.x, select(here.high.y, here.low.y, here.whole));
@@ -131,10 +132,10 @@ fn vtex_picture(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
                 break;
             }
             // None is on the canvas: the lookup's own place stands for all.
-            rows = vtex_rows(centre, vec4f(0.0), VtexRowsPhase());
+            rows = vtex_rows(centre, vec4f(0.0), VtexRowsPhase(), halvings);
             canvas.low = vec2f(-VTEX_PICTURE_FAR);
             canvas.high = vec2f(VTEX_PICTURE_FAR);
-            live = VTEX_SAMPLES_EVERY;
+            live = vtex_rows_every(rows.samples);
         }
         let next = firstTrailingBit(live);
         own = 1u << next;

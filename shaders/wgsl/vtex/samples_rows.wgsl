@@ -3,8 +3,8 @@
 //!use vtex/lookup
 //!use vtex/segment
 // The samples of a footprint, as seen from one cell of the file; a walk speaks of samples as bits of
-// a mask. A footprint's parallelogram has eight rows of four samples, and bit i = 4 k + j of a mask is
-// sample j of row k. Its first axis is horizontal. The samples go down evenly from one to the next, so
+// a mask. A footprint's parallelogram has rows of four samples, eight of them or fewer, and bit
+// i = 4 k + j of a mask is sample j of row k. Its first axis is horizontal. The samples go down evenly from one to the next, so
 // those between two heights are a range of bits; and no two have the same x.
 
 struct VtexRows {
@@ -19,6 +19,8 @@ struct VtexRows {
     pitch: f32,
     // How far right in their columns the samples of the first row lie, in eighths.
     shift: i32,
+    // How many there are.
+    samples: i32,
 }
 
 struct VtexSamples {
@@ -83,8 +85,13 @@ fn vtex_rows_phase(p: vec2f, axes: vec4f) -> VtexRowsPhase {
     return VtexRowsPhase(moved, i32(8.0 * fract(0.306 * t.x + 0.482 * t.y)));
 }
 
-// About `centre`; `axes` are those of the footprint.
-fn vtex_rows(centre: vec2f, axes: vec4f, phase: VtexRowsPhase) -> VtexRows {
+// So many samples have all these bits; they are 32 or a smaller power of two.
+fn vtex_rows_every(samples: i32) -> u32 {
+    return VTEX_ROWS_EVERY >> (VTEX_ROWS_SAMPLES - bitcast<u32>(samples));
+}
+
+// About `centre`; `axes` are those of the footprint, and it has 2 to `halvings` samples.
+fn vtex_rows(centre: vec2f, axes: vec4f, phase: VtexRowsPhase, halvings: u32) -> VtexRows {
     let xy = axes.x * axes.y + axes.z * axes.w;
     let yy = axes.y * axes.y + axes.w * axes.w;
     // The parallelogram with a horizontal axis whose covariance is the same.
@@ -93,12 +100,16 @@ fn vtex_rows(centre: vec2f, axes: vec4f, phase: VtexRowsPhase) -> VtexRows {
     let per_height = 1.0 / height;
     let area = abs(axes.x * axes.w - axes.y * axes.z);
     let width = select(area * per_height, abs(axes.x) + abs(axes.z), level);
-    let dy = height * (1.0 / f32(VTEX_ROWS_SAMPLES));
-    let dx = select(xy * per_height, 0.0, level) * (1.0 / f32(VTEX_ROWS_ROWS));
+    let samples = 1i << halvings;
+    let count = f32(samples);
+    // The inverse of the count, exactly.
+    let part = bitcast<f32>((127u - halvings) << 23u);
+    let dy = height * part;
+    let dx = select(xy * per_height, 0.0, level) * (f32(VTEX_ROWS_COLUMNS) * part);
     let pitch = max(width * (1.0 / f32(VTEX_ROWS_COLUMNS)), VTEX_ROWS_LEAST);
-    let y = centre.y + (phase.moved.y - 15.5) * dy;
-    let x = centre.x - 3.875 * dx + (0.125 * phase.moved.x - 2.0) * pitch;
-    return VtexRows(y, dy, f32(VTEX_ROWS_SAMPLES) * per_height, x, dx, pitch, phase.shift);
+    let y = centre.y + (phase.moved.y - (0.5 * count - 0.5)) * dy;
+    let x = centre.x - (0.125 * count - 0.125) * dx + (0.125 * phase.moved.x - 2.0) * pitch;
+    return VtexRows(y, dy, count * per_height, x, dx, pitch, phase.shift, samples);
 }
 
 // The same rows in other units.
@@ -111,6 +122,7 @@ fn vtex_rows_scaled(rows: VtexRows, units: f32, offset: vec2f) -> VtexRows {
         rows.dx * units,
         rows.pitch * units,
         rows.shift,
+        rows.samples,
     );
 }
 
@@ -118,7 +130,7 @@ fn vtex_rows_scaled(rows: VtexRows, units: f32, offset: vec2f) -> VtexRows {
 // one counts.
 fn vtex_rows_above(rows: VtexRows, y: f32) -> i32 {
     // Integers are clamped, so that no number at all makes a loop over rows long.
-    return clamp(i32(ceil((y - rows.y) * rows.per_y)), 0, i32(VTEX_ROWS_SAMPLES));
+    return clamp(i32(ceil((y - rows.y) * rows.per_y)), 0, rows.samples);
 }
 
 // Left end of a row's columns, less a half of an eighth, as its samples have it.
@@ -184,14 +196,16 @@ fn vtex_samples_of_rows(
 ) -> VtexSamples {
     let units = vt.curve_units.x;
     let scaled = vtex_rows_scaled(rows, units, vt.curve_units.y - cell * units);
+    // From the first row's left end to that of the last sample's.
+    let lean = (0.25 * f32(rows.samples) - 0.25) * scaled.dx;
     return VtexSamples(
         rows,
         cell,
         lookup.uv,
         1.0 / vt.cell_from_uv.xy,
         scaled,
-        scaled.x + min(7.75 * scaled.dx, 0.0),
-        scaled.x + max(7.75 * scaled.dx, 0.0) + 4.0 * scaled.pitch,
+        scaled.x + min(lean, 0.0),
+        scaled.x + max(lean, 0.0) + 4.0 * scaled.pitch,
         centre - cell,
     );
 }
@@ -265,7 +279,7 @@ fn vtex_samples_uv(samples: VtexSamples, mask: u32) -> vec2f {
     let place = vtex_rows_count(mask, 0xaaaaaaaau) + 2.0 * right;
     let column = right + 2.0 * vtex_rows_count(mask, 0x55555555u);
     // From the mean of all.
-    let down = (row + 0.25 * place) * per_whole - 3.875;
+    let down = (row + 0.25 * place) * per_whole - (0.125 * f32(rows.samples) - 0.125);
     let across = column * per_whole - 1.5;
     let mean = vec2f(
         down * rows.dx + across * rows.pitch,

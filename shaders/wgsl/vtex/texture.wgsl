@@ -6,7 +6,8 @@
 struct VtexTexture {
     // First word, a multiple of four.
     first: u32,
-    // Bits VTEX_FEATURE_, then the address modes along u and v.
+    // Bits VTEX_FEATURE_ and, from VTEX_HEADER_SAMPLES_SHIFT on, the logarithm to the base of two of
+    // the samples of a footprint; then the address modes along u and v.
     features: u32,
     address: vec2u,
     // Cells a unit of uv along both axes, then the lattice origin in cells.

@@ -14,7 +14,7 @@ use anyhow::{Context as _, Result};
 use vtex_baker::{BakeConfig, Resources};
 use vtex_format::{Image, VtexFile};
 use vtex_shaders::cpu::Sampler;
-use vtex_shaders::{FilterMode, PackOptions, Packed, pack};
+use vtex_shaders::{FilterMode, FootprintSamples, PackOptions, Packed, pack};
 use vtex_testing::corpus;
 
 use crate::timing::{QuerySet, Screen};
@@ -37,6 +37,31 @@ pub(crate) const FILTERS: [(&str, FilterMode); 3] = [
     ("footprint", FilterMode::Footprint),
     ("paper", FilterMode::Paper),
 ];
+
+/// Ways of looking up, with the names that columns use: the filter modes, and footprints of fewer
+/// samples.
+pub(crate) fn modes() -> [(&'static str, PackOptions); 5] {
+    let few = |samples| PackOptions {
+        samples,
+        ..filtered(FilterMode::Footprint)
+    };
+    let [point, footprint, paper] = FILTERS.map(|(name, filter)| (name, filtered(filter)));
+    [
+        point,
+        footprint,
+        ("footprint, 16", few(FootprintSamples::Sixteen)),
+        ("footprint, 8", few(FootprintSamples::Eight)),
+        paper,
+    ]
+}
+
+/// The defaults with a filter mode.
+pub(crate) fn filtered(filter: FilterMode) -> PackOptions {
+    PackOptions {
+        filter,
+        ..PackOptions::default()
+    }
+}
 
 /// One SVG with its bake and its raster texture.
 #[derive(Debug)]
@@ -94,14 +119,8 @@ impl Subject {
     }
 
     /// Words and texels.
-    pub(crate) fn packed(&self, filter: FilterMode) -> Packed {
-        pack(
-            &self.file,
-            &PackOptions {
-                filter,
-                ..PackOptions::default()
-            },
-        )
+    pub(crate) fn packed(&self, options: &PackOptions) -> Packed {
+        pack(&self.file, options)
     }
 }
 

@@ -6,7 +6,7 @@ use vtex_shaders::FilterMode;
 use super::left_out;
 use super::lookups::vtex_kernel;
 use crate::report::{Cell, Table};
-use crate::subject::{Subject, hardware_kernel};
+use crate::subject::{Subject, filtered, hardware_kernel};
 use crate::timing::{Device, Effort, Kernel, QuerySet};
 
 /// Lookups whose answers are compared.
@@ -48,7 +48,7 @@ pub(crate) fn answers_table(
 
 fn row(device: &Device, subject: &Subject) -> Result<Vec<Cell>> {
     let bands = &subject.bands;
-    let footprint = vtex_kernel(device, subject, FilterMode::Footprint)?;
+    let footprint = vtex_kernel(device, subject, filtered(FilterMode::Footprint))?;
     let bc7 = device.has_bc7().then(|| subject.bc7().kernel(device, 0));
     let raster = hardware_kernel(device, &subject.raster);
     let [_, close, whole, _] = subject.query_sets(COMPARED);

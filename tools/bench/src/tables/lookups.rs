@@ -12,7 +12,9 @@ use vtex_shaders::{FilterMode, PackOptions};
 use super::left_out;
 use super::rivals::nothing_kernel;
 use crate::report::{Cell, Table};
-use crate::subject::{BC7_SIZES, CpuRaster, FILTERS, RASTER_SIZE, Subject, hardware_kernel};
+use crate::subject::{
+    BC7_SIZES, CpuRaster, RASTER_SIZE, Subject, filtered, hardware_kernel, modes,
+};
 use crate::timing::{Device, Effort, Kernel, QuerySet, Timing, Trial, interleave};
 
 /// Lookups a run of what takes a software driver seconds.
@@ -64,7 +66,7 @@ pub(crate) fn gpu_tables(
 /// Names of what [`gpu_kernels`] returns; the first is the baseline.
 fn gpu_columns(device: &Device) -> Vec<String> {
     let mut columns = vec![format!("raster {RASTER_SIZE}^2")];
-    columns.extend(FILTERS.map(|(name, _)| name.to_owned()));
+    columns.extend(modes().map(|(name, _)| name.to_owned()));
     if device.has_bc7() {
         columns.extend(BC7_SIZES.map(|size| format!("BC7 {size}^2")));
     }
@@ -85,8 +87,8 @@ fn gpu_kernels(device: &Device, subject: &Subject) -> Result<Vec<Option<(Kernel,
     let usual = |kernel| Some((kernel, Kind::Usual));
     let slow = |kernel| (kernel, Kind::SlowInSoftware);
     let mut kernels = vec![usual(hardware_kernel(device, &subject.raster))];
-    for (_, filter) in FILTERS {
-        kernels.push(usual(vtex_kernel(device, subject, filter)?));
+    for (_, pack) in modes() {
+        kernels.push(usual(vtex_kernel(device, subject, pack)?));
     }
     if device.has_bc7() {
         let textures = 0..BC7_SIZES.len();
@@ -106,7 +108,7 @@ pub(crate) fn cpu_tables(
     let mut rows = Vec::new();
     for subject in subjects {
         let raster = CpuRaster::new(&subject.raster);
-        let packed = FILTERS.map(|(_, filter)| subject.packed(filter));
+        let packed = modes().map(|(_, options)| subject.packed(&options));
         let samplers = packed.each_ref().map(Sampler::new);
         for set in subject.query_sets(effort.cpu_lookups) {
             let queries = set.queries();
@@ -129,7 +131,7 @@ pub(crate) fn cpu_tables(
     };
     let baseline = "sRGB8 with mips, trilinear in Rust";
     let mut columns = vec![format!("raster {RASTER_SIZE}^2")];
-    columns.extend(FILTERS.map(|(name, _)| name.to_owned()));
+    columns.extend(modes().map(|(name, _)| name.to_owned()));
     Ok(tables(&title, baseline, &columns, &rows))
 }
 
@@ -156,7 +158,7 @@ pub(crate) fn count_table(subjects: &[Subject], effort: Effort) -> Table {
         let [.., set] = subject.query_sets(effort.cpu_lookups);
         let lookups = set.len() as f64;
         let sum = |filter| {
-            let packed = subject.packed(filter);
+            let packed = subject.packed(&filtered(filter));
             let sampler = Sampler::new(&packed);
             let of = |query: BatchQuery| sampler.cost(query.uv, query.footprint);
             let costs = set.queries().into_iter().map(of);
@@ -168,7 +170,7 @@ pub(crate) fn count_table(subjects: &[Subject], effort: Effort) -> Table {
         table.row(vec![
             Cell::Text(subject.name.clone()),
             Cell::Number(subject.file.layers.len() as f64, 0),
-            kib(subject.packed(FilterMode::Point).bytes()),
+            kib(subject.packed(&filtered(FilterMode::Point)).bytes()),
             kib(subject.raster.mips.iter().map(Vec::len).sum()),
             mean(point.entries, 2),
             mean(point.segments, 2),
@@ -182,15 +184,7 @@ pub(crate) fn count_table(subjects: &[Subject], effort: Effort) -> Table {
     table
 }
 
-pub(super) fn vtex_kernel(
-    device: &Device,
-    subject: &Subject,
-    filter: FilterMode,
-) -> Result<Kernel> {
-    let pack = PackOptions {
-        filter,
-        ..PackOptions::default()
-    };
+pub(super) fn vtex_kernel(device: &Device, subject: &Subject, pack: PackOptions) -> Result<Kernel> {
     let options = LoadOptions { pack };
     let texture = GpuVtex::upload(&device.device, &device.queue, &subject.file, &options)?;
     let bridge = include_str!("../wgsl/vtex.wgsl");

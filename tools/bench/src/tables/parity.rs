@@ -4,11 +4,11 @@ use anyhow::Result;
 use rayon::prelude::*;
 use vtex_runtime::{BatchSampler, LoadOptions, Trust};
 use vtex_shaders::cpu::Sampler;
-use vtex_shaders::{BatchQuery, FilterMode, PackOptions};
+use vtex_shaders::{BatchQuery, PackOptions};
 
 use super::left_out;
 use crate::report::{Cell, Table};
-use crate::subject::{FILTERS, Subject};
+use crate::subject::{Subject, modes};
 use crate::timing::{Device, Effort, random_queries};
 
 /// A quarter of an 8-bit step: what two lookups may differ by and count as the same.
@@ -42,7 +42,7 @@ impl Difference {
 
 /// A row a file, two columns a filter mode.
 pub(crate) fn parity_table(device: &Device, subjects: &[Subject], effort: Effort) -> Result<Table> {
-    let heads: Vec<[String; 2]> = FILTERS
+    let heads: Vec<[String; 2]> = modes()
         .iter()
         .map(|(mode, _)| [format!("{mode}, largest"), format!("{mode}, per million")])
         .collect();
@@ -57,8 +57,8 @@ pub(crate) fn parity_table(device: &Device, subjects: &[Subject], effort: Effort
             break;
         }
         let mut cells = vec![Cell::Text(subject.name.clone())];
-        for (mode, filter) in FILTERS {
-            let found = difference(device, subject, filter, &queries)?;
+        for (mode, pack) in modes() {
+            let found = difference(device, subject, pack, &queries)?;
             if found.largest > worst.0 {
                 worst = (found.largest, format!("{}, {mode}", subject.name));
             }
@@ -83,18 +83,14 @@ pub(crate) fn parity_table(device: &Device, subjects: &[Subject], effort: Effort
 fn difference(
     device: &Device,
     subject: &Subject,
-    filter: FilterMode,
+    pack: PackOptions,
     queries: &[BatchQuery],
 ) -> Result<Difference> {
-    let pack = PackOptions {
-        filter,
-        ..PackOptions::default()
-    };
     let options = LoadOptions { pack };
     let (own, queue) = (&device.device, &device.queue);
     let gpu = BatchSampler::new(own, queue, &subject.file, &options, Trust::Regenerate)?;
     let answers = gpu.sample(queries)?;
-    let packed = subject.packed(filter);
+    let packed = subject.packed(&pack);
     let twin = Sampler::new(&packed);
     let cpu: Vec<[f32; 4]> = queries
         .par_iter()

@@ -7,9 +7,9 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use vtex_baker::BakeConfig;
 use vtex_truth::comparison::WINDOWS;
 use vtex_truth::picture::View;
-use vtex_truth::texture::FilterMode;
 
 use super::Format;
+use super::lookup::{Filter, Lookup};
 use super::values::{Color, Matrix, Size, color, matrix, number, size, view};
 
 /// Bake SVG drawings into vector textures (.vtex), and inspect, check, compare and render them.
@@ -260,60 +260,6 @@ pub(crate) struct Validate {
     pub(crate) files: Vec<PathBuf>,
 }
 
-/// How a texture is looked up.
-#[derive(Clone, Copy, Debug, Args)]
-pub(crate) struct Lookup {
-    /// How a lookup filters
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) filter: Filter,
-    /// Where lookups run
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) backend: Backend,
-    /// Samples per pixel
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=65_536))]
-    pub(crate) spp: u32,
-}
-
-/// A value as the command line spells it.
-pub(crate) fn spelled(value: &impl ValueEnum) -> String {
-    let value = value.to_possible_value();
-    value.map_or_else(String::new, |value| value.get_name().to_owned())
-}
-
-/// How a lookup filters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Filter {
-    /// The picture at the sample itself: only the samples of a pixel smooth its hard edges. Like the
-    /// others it reads mips where a sample stands for more than about a texel of mip 0
-    #[default]
-    Point,
-    /// The mean of the picture over a sample's footprint, from 32 places in it
-    Footprint,
-    /// The picture at the sample itself, with edges of MSDFs smoothed over the constant width of
-    /// `bake --smoothing`; edges of curves and images stay hard
-    Paper,
-}
-
-impl From<Filter> for FilterMode {
-    fn from(filter: Filter) -> Self {
-        match filter {
-            Filter::Point => Self::Point,
-            Filter::Footprint => Self::Footprint,
-            Filter::Paper => Self::Paper,
-        }
-    }
-}
-
-/// Where lookups run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Backend {
-    /// On the CPU, without a GPU
-    #[default]
-    Cpu,
-    /// On the best GPU adapter, or on the one that `VTEX_ADAPTER` names
-    Gpu,
-}
-
 /// `vtex preview`.
 #[derive(Debug, Args)]
 pub(crate) struct Preview {
@@ -443,6 +389,12 @@ pub(crate) struct Demo {
     /// Fonts for text.
     #[command(flatten)]
     pub(crate) fonts: Fonts,
+}
+
+/// A value as the command line spells it.
+pub(crate) fn spelled(value: &impl ValueEnum) -> String {
+    let value = value.to_possible_value();
+    value.map_or_else(String::new, |value| value.get_name().to_owned())
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 use vtex_format::VtexFile;
+use vtex_shaders::PackOptions;
 use vtex_truth::comparison::{Column, Comparison, Page, Sizes, Terms, Window, ZoomReport};
 use vtex_truth::picture::difference_picture;
 use vtex_truth::reference::{Edges, Reference};
@@ -47,7 +48,10 @@ pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {
     let reference = Reference::parse(&svg, fonts.for_svg(&svg), Edges::Crisp)
         .map_err(|error| Failure::invalid(&args.svg, format!("not a usable SVG: {error}")))?;
     let comparison = Comparison::new(&reference, terms(&args, &file))?;
-    let pack = canvas_options(args.lookup.filter.into());
+    let pack = PackOptions {
+        samples: args.lookup.footprint_samples.into(),
+        ..canvas_options(args.lookup.filter.into())
+    };
     let shooter = texture::shooter(&file, pack, args.lookup.backend)?;
     let progress = console.progress(args.zoom.len() as u64, "comparing");
     let mut reports = Vec::new();
@@ -162,7 +166,7 @@ fn json(args: &Compare, reports: &[ZoomReport], noise_db: Option<&[f64]>) -> Val
     };
     json!({
         "svg": lossy(&args.svg), "file": lossy(&args.file), "size": args.size, "spp": args.lookup.spp,
-        "filter": spelled(&args.lookup.filter), "backend": spelled(&args.lookup.backend),
+        "filter": spelled(&args.lookup.filter), "footprint_samples": args.lookup.footprint_samples.count(), "backend": spelled(&args.lookup.backend),
         "zooms": reports.iter().enumerate().map(zoom).collect::<Vec<_>>(),
     })
 }

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use serde_json::json;
 use vtex_format::VtexFile;
+use vtex_shaders::PackOptions;
 use vtex_truth::picture::{Shot, View, fit_size};
 use vtex_truth::texture::{pack_options, region_uv};
 
@@ -26,7 +27,10 @@ pub(super) fn run(args: &Preview, console: Console) -> Outcome<ExitCode> {
         spp: args.lookup.spp,
         region_uv: region_uv(&file, args.lookup.filter.into()),
     };
-    let pack = pack_options(args.lookup.filter.into());
+    let pack = PackOptions {
+        samples: args.lookup.footprint_samples.into(),
+        ..pack_options(args.lookup.filter.into())
+    };
     let picture = texture::shooter(&file, pack, args.lookup.backend)?.shoot(shot)?;
     let png = picture.to_png()?;
     if to_stdout {
@@ -40,7 +44,7 @@ pub(super) fn run(args: &Preview, console: Console) -> Outcome<ExitCode> {
         console.json(&json!({
             "input": lossy(&args.file), "output": lossy(&args.output), "bytes": png.len(),
             "size_px": shot.size_px, "view": view.as_array(), "spp": args.lookup.spp,
-            "filter": spelled(&args.lookup.filter), "backend": spelled(&args.lookup.backend),
+            "filter": spelled(&args.lookup.filter), "footprint_samples": args.lookup.footprint_samples.count(), "backend": spelled(&args.lookup.backend),
             "seconds": begun.elapsed().as_secs_f64(),
         }))?;
     }

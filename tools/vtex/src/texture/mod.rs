@@ -11,7 +11,7 @@ use vtex_runtime::Gpu;
 use vtex_shaders::PackOptions;
 use vtex_truth::texture::Shooter;
 
-use crate::cli::args::Backend;
+use crate::cli::lookup::Backend;
 use crate::cli::{ExitCode, Failure, Outcome};
 use crate::files::{BAKE_IT_FIRST, is_svg};
 
