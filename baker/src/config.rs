@@ -59,6 +59,9 @@ pub struct BakeConfig {
     pub address: [AddressMode; 2],
     /// `a b c d e f` of the texture matrix.
     pub texture_matrix: [f32; 6],
+    /// Bytes on a GPU, packed for lookups of points with texels of four bytes, beyond which the file
+    /// has a warning. Nothing else depends on it.
+    pub gpu_budget_bytes: u64,
 }
 
 impl Default for BakeConfig {
@@ -78,6 +81,7 @@ impl Default for BakeConfig {
             stroke_color: None,
             address: [AddressMode::Clamp; 2],
             texture_matrix: [1.0, 0.0, 0.0, 1.0, 0.0, 0.0],
+            gpu_budget_bytes: 4 << 20,
         }
     }
 }

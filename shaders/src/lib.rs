@@ -42,7 +42,7 @@ pub use specialize::{
     BATCH_WORKGROUP, BindingSlot, batch_dispatch, batch_kernel, fragment, scene_context,
     scene_evaluator,
 };
-pub use texels::{MAX_PAGE_SIDE, TexelPages};
+pub use texels::{MAX_PAGE_SIDE, TexelPages, page_bytes};
 
 /// Hash of a shader's text, by which a loader tells whether a file's text is its own.
 pub fn hash(text: &str) -> [u8; 32] {

@@ -13,9 +13,19 @@ pub struct Packed {
 }
 
 impl Packed {
+    /// Bytes of the words on a GPU.
+    pub fn word_bytes(&self) -> usize {
+        size_of_val(&*self.words)
+    }
+
     /// Bytes of words and texels on a GPU.
     pub fn bytes(&self) -> usize {
-        size_of_val(&*self.words) + self.texels.bytes().len()
+        self.word_bytes() + self.texels.bytes().len()
+    }
+
+    /// As [`Packed::bytes`], if the texels were compressed to BC7. No loader does that yet.
+    pub fn bytes_bc(&self) -> usize {
+        self.word_bytes() + self.texels.bytes_bc()
     }
 }
 

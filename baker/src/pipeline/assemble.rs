@@ -3,6 +3,7 @@
 use vtex_format::VtexFile;
 
 use super::{
+    gpu_budget,
     layout::lay_out,
     records::{self, Stages},
 };
@@ -72,7 +73,8 @@ pub(crate) fn assemble(
     if let Some(size) = mip0 {
         // Mips are averages of lookups in the finished cells.
         observer(Stage::Mips);
-        canvas::add_mips(&mut file, size, config.mode);
+        let words = canvas::add_mips(&mut file, size, config.mode);
+        gpu_budget::warn(&mut file, words, config.gpu_budget_bytes);
     }
     Ok(file)
 }

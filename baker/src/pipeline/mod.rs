@@ -4,6 +4,7 @@
 mod assemble;
 mod draw;
 mod fallback;
+mod gpu_budget;
 mod layout;
 mod provenance;
 mod raster_mode;

@@ -98,6 +98,7 @@ fn options(config: &BakeConfig) -> Vec<(String, String)> {
         ("address", address.join(",")),
         ("error", config.error_px.to_string()),
         ("fill-color", color(config.fill_color)),
+        ("gpu-budget", config.gpu_budget_bytes.to_string()),
         ("mask", config.mask.to_string()),
         ("max-zoom", config.max_zoom.to_string()),
         ("merge", config.merge.to_string()),

@@ -86,16 +86,29 @@ pub(crate) fn no_mips() -> Image {
     }
 }
 
-/// Puts the mips into image 0 of `file`, which is [`no_mips`] so far. Level 0 has `size` texels.
-pub(crate) fn add_mips(file: &mut VtexFile, size: [u32; 2], mode: Mode) {
-    let mips = match file.images.as_slice() {
+/// Bytes of the packed words that the lookups read, and how often they halve cells less than
+/// [`HALVINGS`] times.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct LookedUp {
+    pub(crate) word_bytes: usize,
+    pub(crate) fewer_halvings: u32,
+}
+
+/// Puts the mips into image 0 of `file`, which is [`no_mips`] so far. Level 0 has `size` texels. What
+/// lookups read for them, if there were any.
+pub(crate) fn add_mips(file: &mut VtexFile, size: [u32; 2], mode: Mode) -> Option<LookedUp> {
+    let (mips, read) = match file.images.as_slice() {
         // Averaging the raster itself is exact and faster than lookups in it.
-        [_, raster] if mode == Mode::Raster => raster_mips(raster, size),
-        _ => cell_mips(file, size),
+        [_, raster] if mode == Mode::Raster => (raster_mips(raster, size), None),
+        _ => {
+            let (mips, read) = cell_mips(file, size);
+            (mips, Some(read))
+        }
     };
     if let Some(canvas) = file.images.first_mut() {
         *canvas = mips;
     }
+    read
 }
 
 /// The mips of a canvas that is one raster.
@@ -112,10 +125,11 @@ fn raster_mips(raster: &Image, size: [u32; 2]) -> Image {
 }
 
 /// The mips of what the cells show.
-fn cell_mips(file: &mut VtexFile, size: [u32; 2]) -> Image {
+fn cell_mips(file: &mut VtexFile, size: [u32; 2]) -> (Image, LookedUp) {
     // With `--mask` lookups return alpha alone, but mips hold the whole picture.
     let mask = std::mem::take(&mut file.meta.sampler.mask);
-    let mut image = mips::chain(picture(file, size), WHOLE, MAX_MIPS);
+    let (finest, read) = looked_up(file, size);
+    let mut image = mips::chain(finest, WHOLE, MAX_MIPS);
     file.meta.sampler.mask = mask;
     // Merging colours would turn gradients into bands, and images may hold gradients too.
     let gradients = file.paints.iter().any(PaintRecord::is_gradient);
@@ -124,11 +138,15 @@ fn cell_mips(file: &mut VtexFile, size: [u32; 2]) -> Image {
             .par_iter_mut()
             .for_each(|level| palette::join_near_colors(level));
     }
-    image
+    (image, read)
 }
 
 /// What the cells show, in linear light, on `size` texels.
 pub(crate) fn picture(file: &VtexFile, size: [u32; 2]) -> LinearImage {
+    looked_up(file, size).0
+}
+
+fn looked_up(file: &VtexFile, size: [u32; 2]) -> (LinearImage, LookedUp) {
     let effort = Effort::of(file, size);
     // The canvas itself, without the texture matrix and address mode that place it on a surface.
     let options = PackOptions {
@@ -140,13 +158,18 @@ pub(crate) fn picture(file: &VtexFile, size: [u32; 2]) -> LinearImage {
     };
     let packed = pack(file, &options);
     let texels = Texels::new(Sampler::new(&packed), size, effort.lookups);
-    LinearImage {
+    let picture = LinearImage {
         size,
         texels: (0..size[1])
             .into_par_iter()
             .flat_map_iter(|y| texels.row(y))
             .collect(),
-    }
+    };
+    let read = LookedUp {
+        word_bytes: packed.word_bytes(),
+        fewer_halvings: HALVINGS - effort.halvings,
+    };
+    (picture, read)
 }
 
 /// The texels of the canvas and how they are sampled.

@@ -122,4 +122,6 @@ pub enum WarningCode {
     EmptyDrawing = 6,
     /// A budget reduced quality.
     Reduced = 7,
+    /// The texture takes more of a GPU's memory than the caller of the bake wants.
+    GpuBytes = 8,
 }

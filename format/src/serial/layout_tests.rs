@@ -185,6 +185,7 @@ fn enumerations() -> String {
             MergeOverlap,
             EmptyDrawing,
             Reduced,
+            GpuBytes,
         }),
     ]
     .concat()

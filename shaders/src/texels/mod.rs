@@ -6,6 +6,9 @@
 mod arrange;
 mod skyline;
 
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
 use vtex_format::{Image, MAX_MIPS};
 
 pub(crate) use arrange::Place;
@@ -13,6 +16,9 @@ use arrange::arrange;
 
 /// Bytes of a texel.
 const TEXEL_BYTES: usize = 4;
+/// Texels along a side of a block of BC7, and bytes of a block.
+const BLOCK_SIDE: u32 = 4;
+const BLOCK_BYTES: usize = 16;
 /// Texels around a level on each side.
 const BORDER: u32 = 1;
 /// Texels along a page at most: what every WebGPU device has. A level that is larger is left out.
@@ -68,11 +74,7 @@ impl TexelPages {
 
     /// Pages with `levels`, and where the first texel of each lies.
     pub(crate) fn filled(levels: &[Level<'_>]) -> (Self, Vec<Place>) {
-        let rooms: Vec<[u32; 2]> = levels
-            .iter()
-            .map(|level| level.size.map(|side| side + 2 * BORDER))
-            .collect();
-        let arranged = arrange(&rooms);
+        let arranged = arrange(&rooms(levels));
         let mut pages = Self::new(arranged.page, arranged.count);
         let inside = |place: Place| Place {
             corner: place.corner.map(|side| side + BORDER),
@@ -99,6 +101,12 @@ impl TexelPages {
     /// The texels, page by page and row by row, four bytes each.
     pub fn bytes(&self) -> &[u8] {
         &self.bytes
+    }
+
+    /// Bytes that the pages would take in BC7: a byte a texel, in whole blocks.
+    pub fn bytes_bc(&self) -> usize {
+        let [across, down] = self.size.map(|side| side.div_ceil(BLOCK_SIDE) as usize);
+        BLOCK_BYTES * across * down * self.count() as usize
     }
 
     fn page_bytes(&self) -> usize {
@@ -145,6 +153,27 @@ impl TexelPages {
     }
 }
 
+/// Sides of levels with their borders.
+fn rooms(levels: &[Level<'_>]) -> Vec<[u32; 2]> {
+    let room = |level: &Level<'_>| level.size.map(|side| side + 2 * BORDER);
+    levels.iter().map(room).collect()
+}
+
+/// Bytes of the pages with the texels of `images`, as packing a texture with them makes them. Texels
+/// that images share count once. Nothing is copied.
+pub fn page_bytes<'a>(images: impl IntoIterator<Item = &'a Image>) -> usize {
+    let mut known = BTreeSet::new();
+    let own = images
+        .into_iter()
+        .filter(|image| known.insert(Arc::as_ptr(&image.mips)));
+    let levels: Vec<Level<'a>> = own
+        .flat_map(|image| levels_of(image, [false; 2]).1)
+        .collect();
+    let arranged = arrange(&rooms(&levels));
+    let [width, height] = arranged.page.map(|side| side as usize);
+    TEXEL_BYTES * width * height * arranged.count
+}
+
 /// Levels of `image` that fit a page, the finest first, with the index of the first.
 pub(crate) fn levels_of(image: &Image, wraps: [bool; 2]) -> (u32, Vec<Level<'_>>) {
     let sized = (0..MAX_MIPS)
@@ -162,8 +191,6 @@ pub(crate) fn levels_of(image: &Image, wraps: [bool; 2]) -> (u32, Vec<Level<'_>>
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use super::*;
 
     fn level(size: [u32; 2], texels: &[u8], wraps: [bool; 2]) -> Level<'_> {
@@ -195,6 +222,37 @@ mod tests {
             let shown = rows.map(|row| columns.map(|column| 4 * (3 * row + column)));
             let reds = pages.bytes().chunks_exact(4).map(|texel| texel[0]);
             assert!(reds.eq(shown.into_iter().flatten()), "{wraps:?}");
+        }
+    }
+
+    #[test]
+    fn bytes_of_pages_are_known_without_them() {
+        let image = |size: [u32; 2]| Image {
+            rect_uv: [0.0, 0.0, 1.0, 1.0],
+            size,
+            mips: Arc::new(
+                (0..Image::level_count(size))
+                    .map(|level| Image::level_size(size, level))
+                    .map(|[width, height]| vec![0; (4 * width * height) as usize])
+                    .collect(),
+            ),
+        };
+        assert_eq!(page_bytes(&[]), 4);
+        let mut images = vec![image([64, 32]), image([7, 5])];
+        images.push(images[1].clone());
+        let own = &images[..2];
+        let levels: Vec<_> = own
+            .iter()
+            .flat_map(|i| levels_of(i, [false; 2]).1)
+            .collect();
+        let (pages, _) = TexelPages::filled(&levels);
+        assert_eq!(page_bytes(&images), pages.bytes().len());
+    }
+
+    #[test]
+    fn blocks_are_whole() {
+        for (size, count, bytes) in [([4, 4], 1, 16), ([5, 4], 1, 32), ([1, 9], 2, 96)] {
+            assert_eq!(TexelPages::new(size, count).bytes_bc(), bytes, "{size:?}");
         }
     }
 

@@ -375,10 +375,14 @@ fn info_preview_extract_and_compare_tell_what_is_there() {
     );
     let text = bench.run(&["info", "square.vtex"]);
     let text = String::from_utf8_lossy(&text.stdout);
-    assert!(
-        text.contains("1 shape in painter's order") && text.contains("OUTL"),
-        "{text}"
-    );
+    for words in [
+        "1 shape in painter's order",
+        "OUTL",
+        "with BC7",
+        "a raster of 2048",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
 
     let arguments = [
         "preview",

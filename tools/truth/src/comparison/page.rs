@@ -3,36 +3,47 @@
 
 use std::fmt::Write as _;
 
+use vtex_format::VtexFile;
+use vtex_shaders::{PackOptions, pack};
+
 use super::Comparison;
 use crate::TruthError;
 use crate::picture::{Difference, PSNR_CAP_DB, Picture, difference};
-use crate::texture::RasterTexture;
+use crate::texture::{RasterBytes, RasterTexture};
 
 /// Sizes of one drawing as SVG, `.vtex` and raster.
 #[derive(Clone, Copy, Debug)]
 pub struct Sizes {
     svg_bytes: u64,
     vtex_bytes: u64,
+    gpu_bytes: [u64; 2],
     raster_texels: [u32; 2],
-    raster_gpu_bytes: u64,
+    raster_gpu_bytes: [u64; 2],
     raster_png_bytes: u64,
 }
 
 impl Sizes {
-    /// Collects the sizes.
+    /// Collects the sizes of `file`, which takes `vtex_bytes` on disk.
     ///
     /// # Errors
     /// When the raster cannot be encoded.
     pub fn new(
         svg_bytes: u64,
-        vtex_bytes: u64,
+        (file, vtex_bytes): (&VtexFile, u64),
         raster: &RasterTexture,
     ) -> Result<Self, TruthError> {
+        let packed = pack(file, &PackOptions::default());
+        let [width, height] = raster.size().map(f64::from);
+        let bytes = RasterBytes::of(
+            [width, height],
+            raster.size().into_iter().max().unwrap_or(1),
+        );
         Ok(Self {
             svg_bytes,
             vtex_bytes,
+            gpu_bytes: [packed.bytes() as u64, packed.bytes_bc() as u64],
             raster_texels: raster.size(),
-            raster_gpu_bytes: raster.gpu_bytes(),
+            raster_gpu_bytes: [bytes.rgba8, bytes.bc7],
             raster_png_bytes: raster.png_bytes()?,
         })
     }
@@ -110,9 +121,18 @@ impl Page {
             ("SVG", human_bytes(sizes.svg_bytes)),
             (".vtex file", human_bytes(sizes.vtex_bytes)),
             ("raster as PNG", human_bytes(sizes.raster_png_bytes)),
+            (".vtex on the GPU", human_bytes(sizes.gpu_bytes[0])),
+            (
+                ".vtex on the GPU, if its texels were BC7",
+                human_bytes(sizes.gpu_bytes[1]),
+            ),
             (
                 "raster on the GPU, RGBA8 with mips",
-                human_bytes(sizes.raster_gpu_bytes),
+                human_bytes(sizes.raster_gpu_bytes[0]),
+            ),
+            (
+                "raster on the GPU, BC7 with mips",
+                human_bytes(sizes.raster_gpu_bytes[1]),
             ),
         ];
         self.push(&format!("<h2>{}</h2>\n<dl>", escape(name)));

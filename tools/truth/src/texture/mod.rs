@@ -11,7 +11,7 @@ use crate::TruthError;
 use crate::picture::{POINTS, Picture, Shot};
 
 pub use patches::{PatchCover, patch_cover};
-pub use raster::{RasterTexture, TODAY_TEXELS};
+pub use raster::{RasterBytes, RasterTexture, TODAY_TEXELS};
 pub use vtex_shaders::FilterMode;
 
 /// Pack options for a filter.

@@ -10,6 +10,32 @@ use crate::{TruthError, srgb};
 /// Texels along the longer side of a large raster texture today.
 pub const TODAY_TEXELS: u32 = 4096;
 
+/// What a raster with all mips takes in GPU memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RasterBytes {
+    /// Bytes as RGBA8.
+    pub rgba8: u64,
+    /// Bytes as BC7: 16 for each block of 4 x 4 texels.
+    pub bc7: u64,
+}
+
+impl RasterBytes {
+    /// Of a raster of a whole canvas with `longer_texels` along the longer side.
+    pub fn of(canvas_size: [f64; 2], longer_texels: u32) -> Self {
+        let mut size = fit_size(canvas_size, longer_texels).map(u64::from);
+        let mut bytes = Self { rgba8: 0, bc7: 0 };
+        loop {
+            let [width, height] = size;
+            bytes.rgba8 += 4 * width * height;
+            bytes.bc7 += 16 * width.div_ceil(4) * height.div_ceil(4);
+            if size == [1, 1] {
+                return bytes;
+            }
+            size = size.map(|side| (side / 2).max(1));
+        }
+    }
+}
+
 /// One mip level, RGBA8: colours are premultiplied in linear light, then sRGB-encoded.
 #[derive(Debug)]
 struct Level {
@@ -65,14 +91,6 @@ impl RasterTexture {
     /// Texels of mip 0.
     pub fn size(&self) -> [u32; 2] {
         self.levels[0].size
-    }
-
-    /// Bytes in GPU memory as RGBA8 with all mips.
-    pub fn gpu_bytes(&self) -> u64 {
-        self.levels
-            .iter()
-            .map(|level| 4 * level.texels.len() as u64)
-            .sum()
     }
 
     /// Bytes of mip 0 as PNG.
@@ -184,12 +202,18 @@ mod tests {
     use crate::reference::Edges;
 
     #[test]
+    fn blocks_of_small_levels_are_whole() {
+        let bytes = RasterBytes::of([8.0, 5.0], 8);
+        assert_eq!(bytes.rgba8, 4 * (8 * 5 + 4 * 2 + 2 + 1));
+        assert_eq!(bytes.bc7, 16 * (4 + 1 + 1 + 1));
+    }
+
+    #[test]
     fn mips_keep_the_mean() {
         let svg = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 8 8'>\
                    <path d='M0 0H4V8H0z' fill='#fff'/></svg>";
         let smooth = Reference::parse(svg.as_bytes(), Arc::default(), Edges::Smooth).unwrap();
         let texture = RasterTexture::new(&smooth, 8).unwrap();
-        assert_eq!(texture.gpu_bytes(), 4 * (64 + 16 + 4 + 1));
         let whole = texture.sample([0.5, 0.5], [1.0, 0.0, 0.0, 1.0]);
         assert!(
             (whole[0] - 0.5).abs() < 0.01 && (whole[3] - 0.5).abs() < 0.01,

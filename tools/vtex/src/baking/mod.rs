@@ -50,6 +50,7 @@ pub(crate) fn config(options: &BakeOptions) -> BakeConfig {
         texture_matrix: options
             .transform
             .map_or(default.texture_matrix, |matrix| matrix.0),
+        gpu_budget_bytes: options.gpu_budget,
         ..default
     }
 }

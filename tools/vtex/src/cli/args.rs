@@ -10,7 +10,7 @@ use vtex_truth::picture::View;
 
 use super::Format;
 use super::lookup::{Filter, Lookup};
-use super::values::{Color, Matrix, Size, color, matrix, number, size, view};
+use super::values::{Color, Matrix, Size, bytes, color, matrix, number, size, view};
 
 /// Bake SVG drawings into vector textures (.vtex), and inspect, check, compare and render them.
 #[derive(Debug, Parser)]
@@ -213,6 +213,10 @@ pub(crate) struct BakeOptions {
     /// network
     #[arg(long, value_name = "DIR")]
     pub(crate) allow_images: Vec<PathBuf>,
+    /// Bytes on a GPU, or as 64K or 4M, beyond which a texture has a warning: packed for lookups of
+    /// points, with texels of four bytes, as `vtex info` counts them
+    #[arg(long, value_name = "BYTES", default_value = "4M", value_parser = bytes)]
+    pub(crate) gpu_budget: u64,
     /// Fonts for text.
     #[command(flatten)]
     pub(crate) fonts: Fonts,

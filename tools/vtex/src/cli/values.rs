@@ -33,6 +33,25 @@ pub(super) fn size(text: &str) -> Result<Size, String> {
     }
 }
 
+/// A number of bytes: digits, and K, M or G behind them for units of 1024.
+pub(super) fn bytes(text: &str) -> Result<u64, String> {
+    let text = text.trim();
+    let unit = |letter: char| match letter.to_ascii_uppercase() {
+        'K' => Some(1 << 10),
+        'M' => Some(1 << 20),
+        'G' => Some(1 << 30),
+        _ => None,
+    };
+    let (digits, unit) = match text.char_indices().next_back() {
+        Some((at, letter)) if !letter.is_ascii_digit() => (&text[..at], unit(letter)),
+        _ => (text, Some(1)),
+    };
+    let count = digits.parse::<u64>().ok().zip(unit);
+    count
+        .and_then(|(count, unit)| count.checked_mul(unit))
+        .ok_or_else(|| "expected a number of bytes, such as 65536, 64K or 4M".to_owned())
+}
+
 fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(number).collect();
     numbers
@@ -108,6 +127,11 @@ mod tests {
         assert_eq!(size("640x480"), Ok(Size::Exact([640, 480])));
         assert_eq!(size("512"), Ok(Size::Longer(512)));
         assert!(size("0").is_err() && size("9x").is_err());
+        assert_eq!((bytes("70"), bytes(" 64k")), (Ok(70), Ok(65_536)));
+        assert_eq!((bytes("4M"), bytes("2G")), (Ok(4 << 20), Ok(2 << 30)));
+        for wrong in ["", "M", "4T", "-1", "1.5M", "99999999999G", "4\u{20ac}"] {
+            assert!(bytes(wrong).is_err(), "{wrong}");
+        }
         assert!(view("0,0,1").is_err() && view("1,0,0,1").is_err());
         let side = 1.0 / MAX_VIEW;
         assert!(view(&format!("0,0,{side},{side}")).is_ok());

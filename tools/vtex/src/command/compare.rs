@@ -75,6 +75,7 @@ pub(super) fn run(args: Compare, console: Console) -> Outcome<ExitCode> {
     if let Some(folder) = &args.html {
         let stock = Stock {
             svg: &svg,
+            file: &file,
             vtex_bytes: bytes.len() as u64,
             fonts: &fonts,
         };
@@ -206,6 +207,7 @@ fn text(reports: &[ZoomReport], noise_db: Option<&[f64]>) -> String {
 
 struct Stock<'a> {
     svg: &'a [u8],
+    file: &'a VtexFile,
     vtex_bytes: u64,
     fonts: &'a FontLibrary,
 }
@@ -228,7 +230,11 @@ fn write_page(
     let mut page = Page::new("vtex compare");
     page.drawing(
         &name,
-        &Sizes::new(stock.svg.len() as u64, stock.vtex_bytes, &texture)?,
+        &Sizes::new(
+            stock.svg.len() as u64,
+            (stock.file, stock.vtex_bytes),
+            &texture,
+        )?,
     );
     for report in reports {
         let view = report.worst().view;

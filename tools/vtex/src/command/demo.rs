@@ -143,7 +143,11 @@ impl Drawing {
             .map_or_else(|| "drawing".into(), |stem| stem.to_string_lossy());
         page.drawing(
             &name,
-            &Sizes::new(self.svg.len() as u64, self.vtex_bytes, &texture)?,
+            &Sizes::new(
+                self.svg.len() as u64,
+                (&self.file, self.vtex_bytes),
+                &texture,
+            )?,
         );
         for zoom in ZOOMS {
             let view = comparison.first_window(zoom)?;

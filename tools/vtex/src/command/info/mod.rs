@@ -1,6 +1,7 @@
 //! `vtex info`.
 
 use std::fmt::Write as _;
+use std::time::Instant;
 
 use serde_json::{Value, json};
 use vtex_format::{
@@ -17,8 +18,10 @@ use crate::texture;
 use crate::texture::heat::cell_loads;
 use crate::texture::lookup_cost::{Spread, lookup_load};
 
+mod gpu;
 mod shapes;
 
+use gpu::OnGpu;
 use shapes::{shape_json, shapes};
 
 /// Most shapes listed without `--verbose`.
@@ -27,15 +30,21 @@ const SHAPES_SHOWN: usize = 24;
 /// Runs `vtex info`.
 pub(super) fn run(args: &Info, console: Console) -> Outcome<ExitCode> {
     let bytes = input::read(&args.file)?;
+    let begun = Instant::now();
     let file = texture::parse(&args.file, &bytes)?;
+    let on_gpu = OnGpu::new(&file, begun.elapsed());
     let directory = directory(&bytes, &Limits::default())
         .map_err(|error| texture::read_failure(&args.file, &error))?;
     match console.format {
-        Format::Json => console.json(&json(&file, &directory))?,
+        Format::Json => {
+            let mut report = json(&file, &directory);
+            on_gpu.tell(&mut report);
+            console.json(&report)?;
+        }
         Format::Text => {
             let all = console.verbosity == crate::cli::Verbosity::Verbose;
             let shown = if all { usize::MAX } else { SHAPES_SHOWN };
-            console.result(text(&file, &directory, shown).as_bytes())?;
+            console.result(text(&file, &directory, &on_gpu, shown).as_bytes())?;
         }
     }
     Ok(ExitCode::Ok)
@@ -240,10 +249,11 @@ fn share_of_canvas(share: f64) -> String {
     }
 }
 
-fn text(file: &VtexFile, directory: &Directory, shapes_shown: usize) -> String {
+fn text(file: &VtexFile, directory: &Directory, on_gpu: &OnGpu, shapes_shown: usize) -> String {
     let mut out = String::new();
     // Writing to a String does not fail.
     let _ = general(&mut out, file, directory);
+    let _ = on_gpu.text(&mut out);
     let _ = layers(&mut out, file);
     let _ = shapes(&mut out, file, shapes_shown);
     let _ = images(&mut out, file);
