@@ -49,6 +49,7 @@ mod check;
 mod container;
 mod curves;
 mod file;
+mod packing;
 mod records;
 mod serial;
 
@@ -74,6 +75,9 @@ pub use curves::outlines::{
 };
 pub use file::spec::{Features, SHADER_ABI, SHALLOW_BLEND_DEPTH, SpecKey};
 pub use file::texture::VtexFile;
+#[cfg(feature = "encode")]
+#[doc(hidden)]
+pub use packing::dictionary::shader_dictionaries;
 pub use records::curve::{
     CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CurveHeader, CurveLattice,
     MAX_CURVE_SEGMENTS, MAX_CURVE_STEPS,

@@ -36,7 +36,7 @@ pub use link::{LinkContext, LinkError, link};
 pub use pack::{PackOptions, pack, pack_set};
 pub use packed::{Packed, PackedSet};
 #[cfg(feature = "precompile")]
-pub use precompile::{PrecompileError, shader_blob, spirv};
+pub use precompile::{PrecompileError, dictionary_keys, shader_blob, spirv};
 pub use spec::{kernel_key, spec_key};
 pub use specialize::{
     BATCH_WORKGROUP, BindingSlot, batch_dispatch, batch_kernel, fragment, scene_context,

@@ -2,8 +2,9 @@
 
 use naga::back::spv;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use vtex_format::{SHADER_ABI, ShaderBlob, SpecKey};
+use vtex_format::{Features, SHADER_ABI, ShaderBlob, SpecKey};
 
+use crate::spec::kernel_key;
 use crate::specialize::{BindingSlot, batch_kernel, fragment};
 
 /// SPIR-V version of the kernel: Vulkan 1.1's.
@@ -61,10 +62,37 @@ pub fn shader_blob(key: &SpecKey) -> Result<ShaderBlob, PrecompileError> {
     })
 }
 
+/// Keys whose shaders are the dictionaries of `vtex_format`, the one with the most modules first. Of
+/// 276 real files all have one of them, up to features that change a number in the text.
+///
+/// Others need texture matrix or address modes, MSDFs, or a distance outline: they would be as
+/// many again for each, and each takes 5 to 10 KB of the library.
+pub fn dictionary_keys() -> Vec<SpecKey> {
+    const GROUPS: u32 = Features::GROUPS | Features::BLENDS;
+    let mut sets = Vec::new();
+    for brushes in [
+        Features::TRANSLUCENT | Features::IMAGES,
+        Features::TRANSLUCENT,
+        0,
+    ] {
+        for paints in [Features::GRADIENTS, 0] {
+            for groups in [GROUPS, 0] {
+                sets.push(Features::LISTS | Features::CURVES | brushes | paints | groups);
+            }
+        }
+    }
+    sets.extend([
+        Features::LISTS | Features::TRANSLUCENT | Features::IMAGES,
+        Features::GRADIENTS,
+        0,
+    ]);
+    let keys = sets.into_iter().map(|features| SpecKey { features });
+    keys.map(|key| kernel_key(&key)).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vtex_format::Features;
 
     #[test]
     fn kernels_compile_to_the_same_words_twice() {

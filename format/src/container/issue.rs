@@ -147,6 +147,7 @@ issue_table! {
     OUTLINE_BUDGET = 2020 Limits "making curve records from the outlines exceeds the budget";
     SHARED_BYTES = 2021 Malformed "several sections in a bundle have more than 65,536 raw bytes";
     SECTION_LENGTH = 2022 Malformed "a section has 2^32 raw bytes or more";
+    DICTIONARY = 2023 Unsupported "the dictionary is unknown";
 
     META_BUDGET = 3001 Limits "META exceeds its budget";
     PROV_BUDGET = 3002 Limits "PROV exceeds its budget";

@@ -55,6 +55,8 @@ pub(crate) const FLAG_SHARED: u8 = 2;
 pub(crate) const CODEC_RAW: u8 = 0;
 /// Stored bytes are one zstd frame that names its content size.
 pub(crate) const CODEC_ZSTD: u8 = 1;
+/// Stored bytes are the id of a dictionary and a zstd frame as before.
+pub(crate) const CODEC_DICTIONARY: u8 = 2;
 
 /// Bytes of `SHDR` before its text.
 pub(crate) const SHADER_HEAD_BYTES: usize = 16;

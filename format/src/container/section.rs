@@ -1,7 +1,9 @@
 //! Sections, and the bundles that they are stored in.
 
 use super::header::{field, put};
-use super::layout::{CODEC_RAW, CODEC_ZSTD, FLAG_CRITICAL, FLAG_SHARED, HASH_BYTES, bundle, entry};
+use super::layout::{
+    CODEC_DICTIONARY, CODEC_RAW, CODEC_ZSTD, FLAG_CRITICAL, FLAG_SHARED, HASH_BYTES, bundle, entry,
+};
 use super::tag::Tag;
 
 /// How a bundle's bytes are stored.
@@ -11,6 +13,8 @@ pub enum Codec {
     Raw,
     /// One zstd frame.
     Zstd,
+    /// The id of a dictionary that comes with this library, and one zstd frame that refers to it.
+    Dictionary,
     /// A later version's way; only bundles that this version skips may have it.
     Unknown(u8),
 }
@@ -20,6 +24,7 @@ impl Codec {
         match number {
             CODEC_RAW => Self::Raw,
             CODEC_ZSTD => Self::Zstd,
+            CODEC_DICTIONARY => Self::Dictionary,
             other => Self::Unknown(other),
         }
     }
@@ -28,6 +33,7 @@ impl Codec {
         match self {
             Self::Raw => CODEC_RAW,
             Self::Zstd => CODEC_ZSTD,
+            Self::Dictionary => CODEC_DICTIONARY,
             Self::Unknown(other) => other,
         }
     }

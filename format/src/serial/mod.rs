@@ -8,15 +8,9 @@ mod layout_tests;
 mod levels;
 #[cfg(any(feature = "encode", feature = "decode"))]
 mod offsets;
-#[cfg(feature = "encode")]
-mod pack;
 #[cfg(any(feature = "encode", feature = "decode"))]
 mod planes;
 #[cfg(feature = "decode")]
 pub(crate) mod read;
-#[cfg(feature = "decode")]
-mod unpack;
 #[cfg(feature = "encode")]
 pub(crate) mod write;
-#[cfg(feature = "decode")]
-mod zstd_frame;

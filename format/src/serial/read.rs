@@ -6,7 +6,6 @@ use std::sync::Arc;
 use bytemuck::Pod;
 
 use super::levels::mip_sections;
-use super::unpack::{Refusal, allocate, unpack};
 use super::{canonical, offsets, planes};
 use crate::check::{self, images::image_records};
 use crate::container::directory::{Directory, read_directory, slice};
@@ -20,6 +19,7 @@ use crate::container::words::words_from_little_endian;
 use crate::curves::outlines::{OutlineError, StoredOutlines, stream};
 use crate::file::spec::{OLDEST_ABI, SHADER_ABI, SpecKey};
 use crate::file::texture::VtexFile;
+use crate::packing::unpack::{Refusal, allocate, unpack};
 use crate::records::image::{Image, ImageRecord};
 use crate::records::layer::LayerRecord;
 use crate::records::meta::Meta;

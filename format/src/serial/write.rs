@@ -4,7 +4,6 @@ use std::borrow::Cow;
 use std::sync::OnceLock;
 
 use super::levels::mip_sections;
-use super::pack::pack;
 use super::{canonical, offsets, planes};
 use crate::check;
 use crate::container::error::WriteError;
@@ -16,6 +15,7 @@ use crate::container::tag::Tag;
 use crate::container::words::words_to_little_endian;
 use crate::curves::outlines::stream;
 use crate::file::texture::VtexFile;
+use crate::packing::pack::pack;
 use crate::records::image::ImageRecord;
 use crate::records::layer::LayerRecord;
 
@@ -77,7 +77,9 @@ impl VtexFile {
         // Each job has a slot of its own, so the order of the jobs does not show in the bytes.
         let slots: Vec<OnceLock<_>> = bundles.iter().map(|_| OnceLock::new()).collect();
         run(bundles.len(), &|index| {
-            slots[index].get_or_init(|| pack(&bundles[index].raw));
+            let Bundle { sections, raw } = &bundles[index];
+            let tag = sections.first().map_or(Tag::META, |section| section.tag);
+            slots[index].get_or_init(|| pack(tag, raw));
         });
         let stored = slots.into_iter().map(|slot| {
             let packed = slot.into_inner().expect("the caller runs every job");

@@ -9,6 +9,7 @@ use vtex_format::{
     LayerRecord, Limits, MsdfError, ReadError, SHADER_ABI, Tag, VtexFile, validate,
 };
 
+use crate::dictionaries::Base;
 use crate::forge::{Forged, hash, put_together, seal, take_apart};
 use crate::gradients::{GRADIENT_FILES, GRADIENT_VALUES};
 use crate::grouped::{GROUPED_VALUES, grouped};
@@ -51,6 +52,13 @@ fn pack(section: &mut Forged, bytes: &[u8]) {
     section.stored = zstd::bulk::compress(bytes, 3).unwrap();
 }
 
+/// As [`pack`], with a dictionary.
+fn pack_with(section: &mut Forged, base: &Base, checksum: bool) {
+    let content = section.content();
+    section.codec = 2;
+    section.stored = base.packed(&content, checksum);
+}
+
 const TABLE_CASES: &[FileCase] = &[
     (2001, |s| s[PROV].tag = *b"prov"),
     (2002, |s| s.push(Forged::raw(Tag(*b"NEWS"), b"1"))),
@@ -89,11 +97,34 @@ const TABLE_CASES: &[FileCase] = &[
         let frame = s[CELL].stored.clone();
         s[CELL].stored.extend(frame);
     }),
+    (2017, |s| pack_with(&mut s[CELL], &Base::new(), true)),
+    (2017, |s| {
+        let base = Base::new();
+        pack_with(&mut s[CELL], &base, false);
+        s[CELL].stored.truncate(3);
+    }),
+    (2017, |s| {
+        // A frame of more bytes than the section has.
+        s[CELL].codec = 2;
+        s[CELL].stored = Base::new().packed(&[7; 999], false);
+    }),
     (2018, |s| s[TILE].hash[0] ^= 1),
+    (2018, |s| {
+        // Bytes that another dictionary gives.
+        let mut other = Base::new();
+        other.content.reverse();
+        s[PROV].refill(&other.content[..400]);
+        pack_with(&mut s[PROV], &other, false);
+    }),
     (2021, |s| {
         s[SHDR].refill(&[0; 40_000]);
         s[TILE].refill(&[0; 30_000]);
         s[TILE].share();
+    }),
+    (2023, |s| {
+        let mut unknown = Base::new();
+        unknown.id[0] ^= 1;
+        pack_with(&mut s[CELL], &unknown, false);
     }),
 ];
 

@@ -6,6 +6,7 @@
 
 mod cases;
 mod damage;
+mod dictionaries;
 mod forge;
 mod gradients;
 mod grouped;

@@ -44,6 +44,7 @@ fn summary(bytes: &[u8]) -> String {
         let codec = match bundle.codec {
             Codec::Raw => "raw",
             Codec::Zstd => "zstd",
+            Codec::Dictionary => "dictionary",
             Codec::Unknown(_) => "unknown",
         };
         writeln!(text, "bundle {codec}, {stored} bytes of {raw}").unwrap();

@@ -5,7 +5,7 @@ use zstd::bulk::Compressor;
 use zstd::zstd_safe::CParameter;
 
 use super::*;
-use crate::serial::zstd_frame::MAX_BLOCK_BYTES;
+use crate::packing::zstd_frame::MAX_BLOCK_BYTES;
 
 /// Bytes that repeat themselves here and there.
 fn content(u: &mut Unstructured<'_>) -> Result<Vec<u8>> {
@@ -44,13 +44,37 @@ fn frame(u: &mut Unstructured<'_>, raw: &[u8]) -> Result<Vec<u8>> {
 
 /// What the C library and what the decoder in Rust make of a frame; `None` where neither is asked.
 fn decoded(stored: &[u8], length: usize) -> Option<[Option<Vec<u8>>; 2]> {
+    decoded_with(stored, &[], length)
+}
+
+fn decoded_with(stored: &[u8], dictionary: &[u8], length: usize) -> Option<[Option<Vec<u8>>; 2]> {
     let frame = Frame::parse(stored).ok()?;
     (frame.content_bytes == Some(length as u64)).then_some(())?;
     let decoders = [zstd_decoder::decode, ruzstd_decoder::decode];
     Some(decoders.map(|decode| {
         let mut raw = vec![0; length];
-        decode(&frame, &mut raw).map(|()| raw)
+        decode(&frame, dictionary, &mut raw).map(|()| raw)
     }))
+}
+
+/// Dictionaries of more than one block, and content that is partly in them.
+#[test]
+fn both_decoders_unpack_frames_with_dictionaries() {
+    arbtest::arbtest(|u| {
+        let dictionary = content(u)?;
+        let mut raw = content(u)?;
+        let from = u.choose_index(dictionary.len())?;
+        raw.extend_from_slice(&dictionary[from..]);
+        let level = u.int_in_range(1..=19)?;
+        let mut compressor = Compressor::with_dictionary(level, &dictionary).unwrap();
+        let frame = compressor.compress(&raw).unwrap();
+        let [c, rust] = decoded_with(&frame, &dictionary, raw.len()).expect("a whole frame");
+        assert!(c.is_some_and(|c| c == raw), "the C library differs");
+        assert!(rust.is_some_and(|rust| rust == raw), "ruzstd differs");
+        Ok(())
+    })
+    .size_min(4_000)
+    .budget_ms(500);
 }
 
 #[test]

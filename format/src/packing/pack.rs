@@ -1,6 +1,8 @@
 //! Raw bytes to stored bytes: a zstd frame for a bundle, or the raw bytes themselves.
 
+use super::dictionary;
 use crate::container::section::Codec;
+use crate::container::tag::Tag;
 
 /// Levels by the most raw bytes that take them: beyond, the next level costs more time than its bytes
 /// are worth. Bundles of 70 real files, all together, and CPU time on one core (docs/decisions/0018):
@@ -21,11 +23,17 @@ const LEVELS: [(usize, i32); 4] = [
     (usize::MAX, 12),
 ];
 
-/// Raw bytes as stored: a zstd frame, or themselves when that is no shorter.
+/// Raw bytes of a bundle as stored: a zstd frame, or themselves when that is no shorter. A shader,
+/// whose section `tag` begins the bundle, refers to a dictionary.
 ///
 /// # Errors
 /// When zstd has no memory.
-pub(crate) fn pack(raw: &[u8]) -> std::io::Result<(Codec, Vec<u8>)> {
+pub(crate) fn pack(tag: Tag, raw: &[u8]) -> std::io::Result<(Codec, Vec<u8>)> {
+    if tag == Tag::SHDR
+        && let Some(stored) = dictionary::pack(raw)?
+    {
+        return Ok((Codec::Dictionary, stored));
+    }
     let fits = |(most, level): (usize, i32)| (raw.len() <= most).then_some(level);
     // The last row takes any length.
     let level = LEVELS.into_iter().find_map(fits).unwrap_or_default();

@@ -2,6 +2,7 @@
 
 use bytemuck::Pod;
 
+use super::dictionary;
 use super::zstd_frame::Frame;
 use crate::container::issue::{self, IssueKind};
 use crate::container::section::{BundleInfo, Codec};
@@ -23,7 +24,11 @@ pub(crate) fn unpack(bundle: &BundleInfo, stored: &[u8], raw: &mut [u8]) -> Resu
         }
         Codec::Zstd => {
             let frame = Frame::parse(stored).map_err(|message| (issue::FRAME, message))?;
-            decode_frame(&frame, raw)?
+            decode_frame(&frame, &[], raw)?
+        }
+        Codec::Dictionary => {
+            let (dictionary, frame) = with_dictionary(stored)?;
+            decode_frame(&frame, dictionary, raw)?
         }
         Codec::Unknown(number) => return Err((issue::CODEC, format!("codec {number}"))),
     };
@@ -35,8 +40,31 @@ pub(crate) fn unpack(bundle: &BundleInfo, stored: &[u8], raw: &mut [u8]) -> Resu
     Ok(())
 }
 
+/// The dictionary and the frame of a bundle.
+fn with_dictionary(stored: &[u8]) -> Result<(&'static [u8], Frame<'_>), Refusal> {
+    let malformed = |message: String| (issue::FRAME, message);
+    let Some((&id, frame)) = stored.split_first_chunk::<{ dictionary::ID_BYTES }>() else {
+        return Err(malformed("no dictionary is named".to_owned()));
+    };
+    let frame = Frame::parse(frame).map_err(malformed)?;
+    // The decoder in Rust unpacks the dictionary too, so it has no checksum of the content alone.
+    if frame.checksum.is_some() {
+        return Err(malformed("the frame has a checksum".to_owned()));
+    }
+    let unknown = || {
+        let hex: String = id.iter().map(|byte| format!("{byte:02x}")).collect();
+        (issue::DICTIONARY, format!("dictionary {hex}"))
+    };
+    let content = dictionary::find(id).ok_or_else(unknown)?;
+    Ok((content, frame))
+}
+
 /// `None` when the blocks do not unpack to the content.
-fn decode_frame(frame: &Frame<'_>, raw: &mut [u8]) -> Result<Option<()>, Refusal> {
+fn decode_frame(
+    frame: &Frame<'_>,
+    dictionary: &[u8],
+    raw: &mut [u8],
+) -> Result<Option<()>, Refusal> {
     // Decoders differ in what they make of another length, so none of them sees one.
     if frame.content_bytes != Some(raw.len() as u64) {
         let bytes = raw.len();
@@ -44,9 +72,9 @@ fn decode_frame(frame: &Frame<'_>, raw: &mut [u8]) -> Result<Option<()>, Refusal
         return Err((issue::FRAME, message));
     }
     #[cfg(feature = "zstd")]
-    let decoded = zstd_decoder::decode(frame, raw);
+    let decoded = zstd_decoder::decode(frame, dictionary, raw);
     #[cfg(not(feature = "zstd"))]
-    let decoded = ruzstd_decoder::decode(frame, raw);
+    let decoded = ruzstd_decoder::decode(frame, dictionary, raw);
     Ok(decoded)
 }
 
@@ -56,20 +84,22 @@ mod zstd_decoder {
     use super::Frame;
 
     /// Fills `raw`; `None` unless the frame holds just as many bytes.
-    pub(super) fn decode(frame: &Frame<'_>, raw: &mut [u8]) -> Option<()> {
-        let decoded = zstd::bulk::decompress_to_buffer(frame.bytes, raw);
+    pub(super) fn decode(frame: &Frame<'_>, dictionary: &[u8], raw: &mut [u8]) -> Option<()> {
+        let mut decoder = zstd::bulk::Decompressor::with_dictionary(dictionary).ok()?;
+        let decoded = decoder.decompress_to_buffer(frame.bytes, raw);
         (decoded.ok()? == raw.len()).then_some(())
     }
 }
 
 /// The decoder in Rust, for targets without a C compiler.
 #[cfg(any(test, not(feature = "zstd")))]
-mod ruzstd_decoder {
-    use std::io::Read;
+pub(super) mod ruzstd_decoder {
+    use std::io::{self, Read};
 
     use ruzstd::decoding::{BlockDecodingStrategy, FrameDecoder};
 
     use super::Frame;
+    use crate::packing::zstd_frame::MAX_BLOCK_BYTES;
 
     /// Magic number and a descriptor that says: one segment, its size, which
     /// is the window, in eight bytes.
@@ -81,14 +111,19 @@ mod ruzstd_decoder {
     /// whatever the frame's head says. A match may then reach back to the first byte, as it may for
     /// the C library, which decodes into the one piece of memory and looks at no window. The C
     /// library refuses blocks larger than a small window; here they pass, and the hash decides.
-    pub(super) fn decode(frame: &Frame<'_>, raw: &mut [u8]) -> Option<()> {
-        let window = raw.len() as u64;
-        let window_bytes = window.to_le_bytes();
-        let mut source = HEAD.chain(window_bytes.as_slice()).chain(frame.blocks);
+    ///
+    /// The dictionary goes before the blocks, as blocks of bytes as they are: matches reach it, and
+    /// such blocks change no state.
+    pub(crate) fn decode(frame: &Frame<'_>, dictionary: &[u8], raw: &mut [u8]) -> Option<()> {
+        let unpacked = dictionary.len().checked_add(raw.len())?;
+        let window_bytes = (unpacked as u64).to_le_bytes();
+        let before = blocks(dictionary);
+        let mut source = HEAD.chain(window_bytes.as_slice());
         let mut decoder = FrameDecoder::new();
         // The caller's limits allow the raw length; the decoder's own, 100 MiB, is not asked.
         decoder.set_max_window_size(u64::MAX);
         decoder.init(&mut source).ok()?;
+        let mut source = before.chain(frame.blocks);
         let one = || BlockDecodingStrategy::UptoBlocks(1);
         while !decoder.decode_blocks(&mut source, one()).ok()? {
             // What lies beyond the window can be collected. A frame that holds more than it says
@@ -97,12 +132,26 @@ mod ruzstd_decoder {
                 return None;
             }
         }
-        if decoder.can_collect() != raw.len() {
+        if decoder.can_collect() != unpacked {
             return None;
         }
+        let mut first = decoder.by_ref().take(dictionary.len() as u64);
+        io::copy(&mut first, &mut io::sink()).ok()?;
         decoder.read_exact(raw).ok()?;
         let agrees = |expected| decoder.get_calculated_checksum() == Some(expected);
         frame.checksum.is_none_or(agrees).then_some(())
+    }
+
+    /// Blocks of bytes as they are, none of them the last. The head of a block is 24 bits: last, kind
+    /// (two bits), size.
+    fn blocks(bytes: &[u8]) -> impl Read {
+        let most = usize::try_from(MAX_BLOCK_BYTES).unwrap_or(usize::MAX);
+        let mut blocks = Vec::with_capacity(bytes.len() + 3 * bytes.len().div_ceil(most));
+        for block in bytes.chunks(most) {
+            blocks.extend_from_slice(&(block.len() << 3).to_le_bytes()[..3]);
+            blocks.extend_from_slice(block);
+        }
+        io::Cursor::new(blocks)
     }
 }
 
