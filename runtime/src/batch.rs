@@ -41,7 +41,7 @@ pub enum Trust {
 const CHUNK: usize = 1 << 16;
 
 /// Evaluates lookups of one texture on the GPU.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct BatchSampler {
     device: Device,
     queue: Queue,

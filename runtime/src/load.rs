@@ -14,8 +14,18 @@ pub struct LoadOptions {
     pub pack: PackOptions,
 }
 
+/// Reads files by all cores, each as [`VtexFile::parse`] does, in order. For one or two that is enough by
+/// itself.
+#[cfg(any(feature = "zstd", feature = "ruzstd"))]
+pub fn parse_all<B: AsRef<[u8]> + Sync>(
+    files: &[B],
+    limits: &vtex_format::Limits,
+) -> Vec<Result<VtexFile, vtex_format::ReadError>> {
+    crate::cores::map_all(files, 0, |bytes| VtexFile::parse(bytes.as_ref(), limits))
+}
+
 /// One vector texture on the GPU: a read-only storage buffer, a texture with the texels of its images,
-/// and their sampler.
+/// and their sampler. For several in one shader see [`TextureSet`](crate::TextureSet).
 ///
 /// Put the fragment in front of your own WGSL, bind the texture, call `vtex_sample`:
 ///
@@ -34,7 +44,7 @@ pub struct LoadOptions {
 /// // ... and when drawing: pass.set_bind_group(1, texture.bind_group(), &[]);
 /// # Ok(()) }
 /// ```
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct GpuVtex {
     key: SpecKey,
     uploaded: Uploaded,
@@ -138,7 +148,8 @@ impl GpuVtex {
     }
 }
 
-fn texture_layout(device: &Device) -> BindGroupLayout {
+/// Of one texture or of a set, in a group of its own.
+pub(crate) fn texture_layout(device: &Device) -> BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("vtex texture"),
         entries: &Uploaded::layout_entries(0, ShaderStages::FRAGMENT | ShaderStages::COMPUTE),

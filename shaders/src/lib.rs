@@ -24,6 +24,7 @@ mod packed;
 #[cfg(feature = "precompile")]
 mod precompile;
 pub mod record;
+pub mod set;
 mod sources;
 mod spec;
 mod specialize;
@@ -33,7 +34,7 @@ mod texels;
 
 pub use layout::{BatchQuery, FilterMode, FootprintSamples};
 pub use link::{LinkContext, LinkError, link};
-pub use pack::{PackOptions, pack, pack_set};
+pub use pack::{PackOptions, pack, pack_in_pages, pack_set};
 pub use packed::{Packed, PackedSet};
 #[cfg(feature = "precompile")]
 pub use precompile::{PrecompileError, dictionary_keys, shader_blob, spirv};
@@ -42,7 +43,7 @@ pub use specialize::{
     BATCH_WORKGROUP, BindingSlot, batch_dispatch, batch_kernel, fragment, scene_context,
     scene_evaluator,
 };
-pub use texels::{MAX_PAGE_SIDE, TexelPages, page_bytes};
+pub use texels::{MAX_PAGE_SIDE, Place, TexelPages, page_bytes};
 
 /// Hash of a shader's text, by which a loader tells whether a file's text is its own.
 pub fn hash(text: &str) -> [u8; 32] {

@@ -10,10 +10,10 @@ use vtex_format::{
 
 use crate::cpu::{color, to_f32, to_u32};
 use crate::layout::{FilterMode, FootprintSamples, OFFSET_END, gradient, header, image, paint};
-use crate::packed::{Packed, PackedSet};
+use crate::packed::{Packed, PackedSet, place_word};
 use crate::spec::spec_key;
 use crate::subdivide::subdivide;
-use crate::texels::{Level, Place, TexelPages, levels_of};
+use crate::texels::{Level, MAX_PAGE_SIDE, Place, TexelPages, levels_of};
 
 /// Evaluators read four words at a time.
 const GROUP_WORDS: usize = 4;
@@ -54,7 +54,13 @@ impl PackOptions {
 /// They go with the text of [`spec_key`] of the same file and options. `file` is to be one that the
 /// format's validator finds nothing in; another gives a wrong picture, never a panic.
 pub fn pack(file: &VtexFile, options: &PackOptions) -> Packed {
-    let set = pack_set([(file, options)]);
+    pack_in_pages(file, options, MAX_PAGE_SIDE)
+}
+
+/// As [`pack`], for a set of many: a page has at most `page_side` texels a side, more only where a level
+/// of an image has. [`Packed::move_pages`] says where the pages come to lie.
+pub fn pack_in_pages(file: &VtexFile, options: &PackOptions, page_side: u32) -> Packed {
+    let set = packed_set([(file, options)], page_side);
     Packed {
         words: set.words,
         texels: set.texels,
@@ -65,6 +71,13 @@ pub fn pack(file: &VtexFile, options: &PackOptions) -> Packed {
 /// features.
 pub fn pack_set<'a>(
     textures: impl IntoIterator<Item = (&'a VtexFile, &'a PackOptions)>,
+) -> PackedSet {
+    packed_set(textures, MAX_PAGE_SIDE)
+}
+
+fn packed_set<'a>(
+    textures: impl IntoIterator<Item = (&'a VtexFile, &'a PackOptions)>,
+    page_side: u32,
 ) -> PackedSet {
     let mut words = Vec::new();
     let mut first_words = Vec::new();
@@ -80,7 +93,7 @@ pub fn pack_set<'a>(
             false => words.extend(texture),
         }
     }
-    let (texels, places) = TexelPages::filled(&levels);
+    let (texels, places) = TexelPages::filled(&levels, page_side);
     for image in images {
         place_levels(&mut words, &image, &places);
     }
@@ -323,7 +336,6 @@ fn image_levels<'a>(
 fn place_levels(words: &mut [u32], unplaced: &Unplaced, places: &[Place]) {
     let words = words[unplaced.places..].iter_mut();
     for (word, place) in words.zip(&places[unplaced.levels.clone()]) {
-        let [x, y] = place.corner;
-        *word = x | y << image::Y_SHIFT | place.page << image::PAGE_SHIFT;
+        *word = place_word(*place);
     }
 }

@@ -9,7 +9,7 @@ use crate::spec::kernel_key;
 pub const BATCH_WORKGROUP: u32 = 64;
 
 /// Workgroups a dispatch may have along an axis on every WebGPU device.
-const MAX_WORKGROUPS: u32 = 65_535;
+pub(crate) const MAX_WORKGROUPS: u32 = 65_535;
 
 /// Where a texture is bound: its words, its texels and their sampler at successive bindings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -137,7 +137,7 @@ fn slots(features: u32) -> LinkContext {
         })
 }
 
-fn linked(root: &str, context: &LinkContext) -> String {
+pub(crate) fn linked(root: &str, context: &LinkContext) -> String {
     link(root, context).expect("the crate's own modules link: a test tries every key")
 }
 

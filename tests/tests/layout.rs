@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use naga::{Expression, Literal, Module, TypeInner};
 use vtex_format::{Features, SpecKey};
 use vtex_shaders::layout::{BATCH_QUERY, CONSTANTS, RecordLayout, rows};
+use vtex_shaders::set::{self, TEXTURE_QUERY, queue_arguments_kernel, queue_kernel, set_fragment};
 use vtex_shaders::{BindingSlot, batch_kernel, scene_evaluator};
 
 fn key(features: u32) -> SpecKey {
@@ -44,8 +45,8 @@ fn constants(module: &Module) -> BTreeMap<&str, u32> {
         .collect()
 }
 
-fn check_constants(module: &Module, features: u32, text: &str) {
-    let mut expected: BTreeMap<&str, u32> = CONSTANTS.iter().copied().collect();
+fn check_constants(module: &Module, features: u32, text: &str, more: &[(&'static str, u32)]) {
+    let mut expected: BTreeMap<&str, u32> = CONSTANTS.iter().chain(more).copied().collect();
     // The one constant that depends on the variant: a mask of all samples.
     let footprint = features & Features::FOOTPRINT != 0;
     let samples = if footprint { rows::EVERY } else { 1 };
@@ -75,33 +76,75 @@ fn every_variant_has_the_constants_and_records_of_rust() {
     for features in (0..=Features::ALL).step_by(13).chain([Features::ALL]) {
         let text = batch_kernel(&key(features));
         let module = naga::front::wgsl::parse_str(&text).expect("WGSL");
-        check_constants(&module, features, "batch kernel");
+        check_constants(&module, features, "batch kernel", &[]);
         check_record(&module, &BATCH_QUERY);
         let text = scene_evaluator(features, BindingSlot::default());
         let module = naga::front::wgsl::parse_str(&text).expect("WGSL");
-        check_constants(&module, features, "scene");
+        check_constants(&module, features, "scene", &[]);
     }
 }
 
+/// What a set adds does not depend on the variant.
 #[test]
-fn bindings_are_where_they_are_said_to_be() {
-    let text = batch_kernel(&key(Features::ALL));
-    let module = naga::front::wgsl::parse_str(&text).expect("WGSL");
+fn sets_have_the_constants_and_records_of_rust() {
+    for features in [0, Features::FOOTPRINT, Features::ALL] {
+        let text = set_fragment(features, BindingSlot::default());
+        let module = naga::front::wgsl::parse_str(&text).expect("WGSL");
+        check_constants(&module, features, "set", set::CONSTANTS);
+        let module = naga::front::wgsl::parse_str(&queue_kernel(features)).expect("WGSL");
+        check_constants(&module, features, "queue", set::CONSTANTS);
+        check_record(&module, &TEXTURE_QUERY);
+    }
+}
+
+/// Group, binding and name of what a text binds.
+fn bindings(text: &str) -> Vec<(u32, u32, String)> {
+    let module = naga::front::wgsl::parse_str(text).expect("WGSL");
     let mut bindings: Vec<_> = module
         .global_variables
         .iter()
         .filter_map(|(_, variable)| {
             let at = variable.binding.as_ref()?;
-            Some((at.group, at.binding, variable.name.as_deref().unwrap_or("")))
+            Some((at.group, at.binding, variable.name.clone()?))
         })
         .collect();
     bindings.sort_unstable();
-    let expected = [
-        (0, 0, "vtex_words"),
-        (0, 1, "vtex_texels"),
-        (0, 2, "vtex_sampler"),
-        (0, 3, "vtex_queries"),
-        (0, 4, "vtex_results"),
+    bindings
+}
+
+fn check_bindings(text: &str, expected: &[(u32, u32, &str)]) {
+    let named = expected
+        .iter()
+        .map(|&(group, binding, name)| (group, binding, name.to_owned()));
+    assert_eq!(bindings(text), named.collect::<Vec<_>>());
+}
+
+#[test]
+fn bindings_are_where_they_are_said_to_be() {
+    check_bindings(
+        &batch_kernel(&key(Features::ALL)),
+        &[
+            (0, 0, "vtex_words"),
+            (0, 1, "vtex_texels"),
+            (0, 2, "vtex_sampler"),
+            (0, 3, "vtex_queries"),
+            (0, 4, "vtex_results"),
+        ],
+    );
+    let queue = [
+        (0, 0, "vtex_queue_queries"),
+        (0, 1, "vtex_queue_count"),
+        (0, 2, "vtex_queue_colors"),
     ];
-    assert_eq!(bindings, expected);
+    let set = [
+        (1, 0, "vtex_words"),
+        (1, 1, "vtex_texels"),
+        (1, 2, "vtex_sampler"),
+    ];
+    check_bindings(&queue_kernel(Features::ALL), &[queue, set].concat());
+    let arguments = [(1, 0, "vtex_queue_dispatch")];
+    check_bindings(
+        &queue_arguments_kernel(),
+        &[&queue[..], &arguments].concat(),
+    );
 }

@@ -5,6 +5,7 @@ use std::io::Write as _;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use rayon::prelude::*;
 use vtex_format::{Features, SpecKey};
+use vtex_shaders::set::{queue_arguments_kernel, queue_kernel};
 use vtex_shaders::{BindingSlot, batch_kernel, fragment, scene_evaluator, shader_blob, spirv};
 use vtex_tests::variants::variants;
 
@@ -63,6 +64,17 @@ fn fragments_and_scenes_live_in_a_shader_of_another() {
         spirv(&text).unwrap_or_else(|error| panic!("scene {key:?}: {error}"));
     });
     report("fragments and scenes", variants.len());
+}
+
+#[test]
+fn queues_of_sets_compile() {
+    spirv(&queue_arguments_kernel()).unwrap();
+    let variants = variants();
+    variants.par_iter().for_each(|variant| {
+        let features = variant.features;
+        spirv(&queue_kernel(features)).unwrap_or_else(|error| panic!("{features:#b}: {error}"));
+    });
+    report("queues", variants.len());
 }
 
 #[test]

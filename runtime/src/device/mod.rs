@@ -12,4 +12,4 @@ pub(crate) use reply::block_on;
 #[cfg(feature = "tracer")]
 pub(crate) use reply::submitted_work;
 pub(crate) use scope::{checked, compiled};
-pub(crate) use texels::Uploaded;
+pub(crate) use texels::{Uploaded, array_view, page_array, texel_sampler};

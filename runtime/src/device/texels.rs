@@ -4,8 +4,8 @@ use vtex_shaders::TexelPages;
 use wgpu::{
     AddressMode, BindGroupEntry, BindGroupLayoutEntry, BindingResource, BindingType, Buffer,
     BufferBindingType, BufferUsages, Device, FilterMode, Queue, Sampler, SamplerBindingType,
-    SamplerDescriptor, ShaderStages, TextureFormat, TextureSampleType, TextureUsages, TextureView,
-    TextureViewDescriptor, TextureViewDimension,
+    SamplerDescriptor, ShaderStages, Texture, TextureFormat, TextureSampleType, TextureUsages,
+    TextureView, TextureViewDescriptor, TextureViewDimension,
 };
 
 use super::buffer::filled_buffer;
@@ -35,15 +35,13 @@ impl Uploaded {
         Ok(Self {
             words: filled_buffer(device, queue, "vtex words", bytes, BufferUsages::STORAGE)?,
             texels: texel_pages(device, queue, texels)?,
-            sampler: device.create_sampler(&SamplerDescriptor {
-                label: Some("vtex texels"),
-                address_mode_u: AddressMode::ClampToEdge,
-                address_mode_v: AddressMode::ClampToEdge,
-                mag_filter: FilterMode::Linear,
-                min_filter: FilterMode::Linear,
-                ..SamplerDescriptor::default()
-            }),
+            sampler: texel_sampler(device),
         })
+    }
+
+    /// Whether all three are the same as another's.
+    pub(crate) fn binds_the_same(&self, other: &Self) -> bool {
+        self.words == other.words && self.texels == other.texels && self.sampler == other.sampler
     }
 
     /// Its entries in a bind group, the first at `binding`.
@@ -92,39 +90,70 @@ fn texel_pages(
     pages: &TexelPages,
 ) -> Result<TextureView, RuntimeError> {
     let [width, height] = pages.size();
-    let size = wgpu::Extent3d {
-        width,
-        height,
-        depth_or_array_layers: pages.count(),
-    };
-    let limits = device.limits();
-    let side = limits.max_texture_dimension_2d;
-    if width.max(height) > side || pages.count() > limits.max_texture_array_layers {
-        return Err(RuntimeError::Limit(format!(
-            "images of {} pages of {width} x {height} texels, this device has at most {} of {side} x {side}",
-            pages.count(),
-            limits.max_texture_array_layers,
-        )));
-    }
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("vtex texels"),
-        size,
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: TextureFormat::Rgba8UnormSrgb,
-        usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
+    let texture = page_array(device, pages.size(), pages.count())?;
     let rows = wgpu::TexelCopyBufferLayout {
         offset: 0,
         bytes_per_row: Some(4 * width),
         rows_per_image: Some(height),
     };
-    queue.write_texture(texture.as_image_copy(), pages.bytes(), rows, size);
-    Ok(texture.create_view(&TextureViewDescriptor {
-        // Of a single page too.
+    let texels = texture.as_image_copy();
+    queue.write_texture(texels, pages.bytes(), rows, texture.size());
+    Ok(array_view(&texture))
+}
+
+/// Empty pages. To be called in [`checked`](super::checked).
+///
+/// # Errors
+/// [`RuntimeError::Limit`] when the device has no texture of that size.
+pub(crate) fn page_array(
+    device: &Device,
+    [width, height]: [u32; 2],
+    count: u32,
+) -> Result<Texture, RuntimeError> {
+    let limits = device.limits();
+    let [side, layers] = [
+        limits.max_texture_dimension_2d,
+        limits.max_texture_array_layers,
+    ];
+    if width.max(height) > side || count > layers {
+        return Err(RuntimeError::Limit(format!(
+            "images of {count} pages of {width} x {height} texels, this device has at most {layers} of \
+             {side} x {side}",
+        )));
+    }
+    Ok(device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("vtex texels"),
+        size: wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: count,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: TextureFormat::Rgba8UnormSrgb,
+        // A set copies its pages into larger ones.
+        usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST | TextureUsages::COPY_SRC,
+        view_formats: &[],
+    }))
+}
+
+/// All pages, as an array even where there is one.
+pub(crate) fn array_view(texture: &Texture) -> TextureView {
+    texture.create_view(&TextureViewDescriptor {
         dimension: Some(TextureViewDimension::D2Array),
         ..TextureViewDescriptor::default()
-    }))
+    })
+}
+
+/// What samples pages.
+pub(crate) fn texel_sampler(device: &Device) -> Sampler {
+    device.create_sampler(&SamplerDescriptor {
+        label: Some("vtex texels"),
+        address_mode_u: AddressMode::ClampToEdge,
+        address_mode_v: AddressMode::ClampToEdge,
+        mag_filter: FilterMode::Linear,
+        min_filter: FilterMode::Linear,
+        ..SamplerDescriptor::default()
+    })
 }

@@ -1,17 +1,17 @@
 //! Where rectangles lie in pages.
 
-use super::MAX_PAGE_SIDE;
 use super::skyline::Skyline;
 
 /// Widths of a page that are tried, as parts of the side of a square with the area of all rectangles.
 const WIDTHS: [f64; 6] = [0.7, 0.85, 1.0, 1.15, 1.3, 1.5];
 
-/// Where a rectangle lies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Place {
-    pub(crate) page: u32,
-    /// Left and top.
-    pub(crate) corner: [u32; 2],
+/// Where a rectangle of texels lies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// Index of the page.
+    pub page: u32,
+    /// Texels to its left and above it.
+    pub corner: [u32; 2],
 }
 
 /// Places of rectangles in pages of one size.
@@ -23,30 +23,32 @@ pub(super) struct Arrangement {
     pub(super) places: Vec<Place>,
 }
 
-/// One page as small as it gets or, where that is larger than [`MAX_PAGE_SIDE`], as many of that
-/// size as it takes. No rectangle may be larger than such a page.
-pub(super) fn arrange(sizes: &[[u32; 2]]) -> Arrangement {
+/// One page as small as it gets or, where that is larger than `page_side`, as many of that size as it
+/// takes. A rectangle that is larger makes the pages larger.
+pub(super) fn arrange(sizes: &[[u32; 2]], page_side: u32) -> Arrangement {
+    let largest = sizes.iter().flatten().copied().max().unwrap_or(1);
+    let side = page_side.max(largest);
     // The tallest first, and of equals the widest.
     let mut order: Vec<usize> = (0..sizes.len()).collect();
     order.sort_by_key(|&index| {
         let [width, height] = sizes[index];
         std::cmp::Reverse([height, width])
     });
-    let single = widths(sizes).into_iter().filter_map(|width| {
-        let arranged = in_pages(sizes, &order, width);
+    let single = widths(sizes, side).into_iter().filter_map(|width| {
+        let arranged = in_pages(sizes, &order, [width, side]);
         let texels = u64::from(arranged.page[0]) * u64::from(arranged.page[1]);
         (arranged.count == 1).then_some((texels, arranged))
     });
     let smallest = single.min_by_key(|&(texels, _)| texels);
     smallest.map_or_else(
-        || in_pages(sizes, &order, MAX_PAGE_SIDE),
+        || in_pages(sizes, &order, [side; 2]),
         |(_, arranged)| arranged,
     )
 }
 
 /// Widths that are tried for a single page, in texels: those of squares, and some in which the
 /// largest rectangle has the next ones beside it or below.
-fn widths(sizes: &[[u32; 2]]) -> Vec<u32> {
+fn widths(sizes: &[[u32; 2]], side: u32) -> Vec<u32> {
     let area: f64 = sizes
         .iter()
         .map(|&[w, h]| f64::from(w) * f64::from(h))
@@ -60,9 +62,7 @@ fn widths(sizes: &[[u32; 2]]) -> Vec<u32> {
     });
     let square = WIDTHS.map(|part| whole(area.sqrt() * part));
     let tried = beside.chain(square);
-    tried
-        .map(|width| width.clamp(widest, MAX_PAGE_SIDE.max(widest)))
-        .collect()
+    tried.map(|width| width.clamp(widest, side)).collect()
 }
 
 #[expect(
@@ -74,8 +74,8 @@ fn whole(side: f64) -> u32 {
     side.ceil() as u32
 }
 
-/// Each rectangle in the first page of this width that has room for it.
-fn in_pages(sizes: &[[u32; 2]], order: &[usize], width: u32) -> Arrangement {
+/// Each rectangle in the first page that has room for it, of this width and at most this height.
+fn in_pages(sizes: &[[u32; 2]], order: &[usize], [width, most]: [u32; 2]) -> Arrangement {
     let nowhere = Place {
         page: 0,
         corner: [0; 2],
@@ -84,7 +84,7 @@ fn in_pages(sizes: &[[u32; 2]], order: &[usize], width: u32) -> Arrangement {
     let mut pages: Vec<Skyline> = Vec::new();
     for &index in order {
         let found = (0..).zip(&mut pages).find_map(|(page, skyline)| {
-            let corner = skyline.place(sizes[index], MAX_PAGE_SIDE)?;
+            let corner = skyline.place(sizes[index], most)?;
             Some(Place { page, corner })
         });
         places[index] = found.unwrap_or_else(|| {
@@ -108,10 +108,15 @@ fn in_pages(sizes: &[[u32; 2]], order: &[usize], width: u32) -> Arrangement {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::texels::MAX_PAGE_SIDE;
 
     /// Each lies in its page, and none on another.
     fn check(sizes: &[[u32; 2]]) -> Arrangement {
-        let arranged = arrange(sizes);
+        check_in(sizes, MAX_PAGE_SIDE)
+    }
+
+    fn check_in(sizes: &[[u32; 2]], page_side: u32) -> Arrangement {
+        let arranged = arrange(sizes, page_side);
         assert_eq!(arranged.places.len(), sizes.len());
         for (index, (place, size)) in arranged.places.iter().zip(sizes).enumerate() {
             assert!((place.page as usize) < arranged.count, "{sizes:?}");
@@ -185,5 +190,13 @@ mod tests {
         ]);
         assert_eq!(arranged.count, 3);
         assert_eq!(arranged.page, [MAX_PAGE_SIDE; 2]);
+    }
+
+    #[test]
+    fn pages_are_no_larger_than_asked_but_for_a_larger_rectangle() {
+        let arranged = check_in(&[[100, 90]; 8], 256);
+        assert!(arranged.count > 1 && arranged.page.iter().all(|&side| side <= 256));
+        let arranged = check_in(&[[300, 40], [40, 280], [100, 100]], 256);
+        assert!(arranged.page.iter().all(|&side| side <= 300));
     }
 }

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use vtex_format::{Image, MAX_MIPS};
 
-pub(crate) use arrange::Place;
+pub use arrange::Place;
 use arrange::arrange;
 
 /// Bytes of a texel.
@@ -72,9 +72,10 @@ impl TexelPages {
         }
     }
 
-    /// Pages with `levels`, and where the first texel of each lies.
-    pub(crate) fn filled(levels: &[Level<'_>]) -> (Self, Vec<Place>) {
-        let arranged = arrange(&rooms(levels));
+    /// Pages with `levels`, and where the first texel of each lies. A page has at most `page_side` texels
+    /// a side, more only where a level has.
+    pub(crate) fn filled(levels: &[Level<'_>], page_side: u32) -> (Self, Vec<Place>) {
+        let arranged = arrange(&rooms(levels), page_side);
         let mut pages = Self::new(arranged.page, arranged.count);
         let inside = |place: Place| Place {
             corner: place.corner.map(|side| side + BORDER),
@@ -169,7 +170,7 @@ pub fn page_bytes<'a>(images: impl IntoIterator<Item = &'a Image>) -> usize {
     let levels: Vec<Level<'a>> = own
         .flat_map(|image| levels_of(image, [false; 2]).1)
         .collect();
-    let arranged = arrange(&rooms(&levels));
+    let arranged = arrange(&rooms(&levels), MAX_PAGE_SIDE);
     let [width, height] = arranged.page.map(|side| side as usize);
     TEXEL_BYTES * width * height * arranged.count
 }
@@ -210,7 +211,8 @@ mod tests {
     fn a_border_repeats_the_edge_or_shows_the_other_side() {
         let texels = counted(0, 6);
         for wraps in [[false; 2], [true, false], [false, true], [true; 2]] {
-            let (pages, places) = TexelPages::filled(&[level([3, 2], &texels, wraps)]);
+            let (pages, places) =
+                TexelPages::filled(&[level([3, 2], &texels, wraps)], MAX_PAGE_SIDE);
             assert_eq!((pages.size(), pages.count()), ([5, 4], 1));
             assert_eq!(places[0].corner, [1, 1]);
             let columns = if wraps[0] {
@@ -245,7 +247,7 @@ mod tests {
             .iter()
             .flat_map(|i| levels_of(i, [false; 2]).1)
             .collect();
-        let (pages, _) = TexelPages::filled(&levels);
+        let (pages, _) = TexelPages::filled(&levels, MAX_PAGE_SIDE);
         assert_eq!(page_bytes(&images), pages.bytes().len());
     }
 

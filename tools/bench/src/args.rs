@@ -80,6 +80,9 @@ pub(crate) enum Part {
     Sizes,
     /// Bytes on the GPU and load times, of each file and of its rivals. Needs no graphics card.
     Load,
+    /// Sets of 1 to 1,000 textures in one pipeline: bytes, load times, pipelines, lookups. Not part of the
+    /// default.
+    Set,
     /// Whole processes: `vtex bake`, which must be built in the same folder as this program, and
     /// resvg to a PNG. Not part of the default.
     Processes,
@@ -93,7 +96,7 @@ impl Args {
             return about_gpus.contains(&part);
         }
         match self.only.is_empty() {
-            true => part != Part::Processes,
+            true => ![Part::Processes, Part::Set].contains(&part),
             false => self.only.contains(&part),
         }
     }
@@ -133,7 +136,7 @@ mod tests {
             [Some("vtex-bench.md".into()), Some("a.json".into())]
         );
         let plain = parse(&[]).unwrap();
-        assert!(plain.wants(Part::Isa) && !plain.wants(Part::Processes));
+        assert!(plain.wants(Part::Isa) && !plain.wants(Part::Processes) && !plain.wants(Part::Set));
         assert_eq!(plain.outputs(), [None, None]);
     }
 }

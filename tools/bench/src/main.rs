@@ -15,8 +15,8 @@ use clap::Parser as _;
 use vtex_baker::Resources;
 
 use crate::args::{Args, Part};
-use crate::report::Report;
-use crate::subject::{Subject, bake, find, system_fonts};
+use crate::report::{Report, Table};
+use crate::subject::{Subject, bake, find, name, system_fonts};
 use crate::timing::{Device, Effort, Machine};
 
 /// How much of a run with `--card` has passed when the part begins no more files: less than five
@@ -40,7 +40,8 @@ fn main() -> Result<()> {
         };
         return tables::rasterise_to_png(svg, png);
     }
-    let needs_device = [Part::Gpu, Part::Rays, Part::Parity].map(|part| args.wants(part));
+    let needs_device =
+        [Part::Gpu, Part::Rays, Part::Parity, Part::Set].map(|part| args.wants(part));
     let device = needs_device
         .contains(&true)
         .then(Device::open)
@@ -107,6 +108,9 @@ impl Run {
         if self.args.wants(Part::Isa) {
             self.instruction_sets(report)?;
         }
+        if let Some(device) = device.filter(|_| self.args.wants(Part::Set)) {
+            report.add_all(self.sets(device)?)?;
+        }
         let lookups = [Part::Cpu, Part::Gpu, Part::Rays, Part::Parity, Part::Load];
         if !lookups.map(|part| self.args.wants(part)).contains(&true) {
             return Ok(());
@@ -135,6 +139,13 @@ impl Run {
             report.add(tables::stages_table(paths, resources, cores, rounds)?)?;
         }
         Ok(())
+    }
+
+    /// Files are baked only, without their rasters: many may be named.
+    fn sets(&self, device: &Device) -> Result<Vec<Table>> {
+        let bake = |path: &PathBuf| Ok((name(path), bake(path, &self.resources)?));
+        let files: Vec<_> = self.paths.iter().map(bake).collect::<Result<_>>()?;
+        tables::set_tables(device, &files, self.effort)
     }
 
     /// Of the files' feature sets only when the user named files.

@@ -8,6 +8,7 @@ mod parity;
 mod processes;
 mod rays;
 mod rivals;
+mod set;
 mod sfg22;
 mod sizes;
 mod stages;
@@ -20,6 +21,7 @@ pub(crate) use parity::parity_table;
 pub(crate) use processes::{process_tables, rasterise_to_png};
 pub(crate) use rays::rays_table;
 pub(crate) use rivals::{check_queries, fetch_table, minified_table, sfg22_table};
+pub(crate) use set::set_tables;
 pub(crate) use sizes::size_tables;
 pub(crate) use stages::stages_table;
 

@@ -260,6 +260,12 @@ impl Device {
         Ok(bytes)
     }
 
+    /// Waits until everything is done, also what was only written.
+    pub(crate) fn finish(&self) -> Result<()> {
+        self.queue.submit([]);
+        self.wait()
+    }
+
     fn wait(&self) -> Result<()> {
         self.device
             .poll(wgpu::PollType::wait_indefinitely())

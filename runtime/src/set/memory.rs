@@ -1,0 +1,200 @@
+//! A set's buffer and pages on the device.
+
+use vtex_shaders::set::{TextureHandle, table};
+use vtex_shaders::{Packed, TexelPages};
+use wgpu::{
+    BindGroup, BindGroupLayout, Buffer, BufferUsages, CommandEncoder, Device, Extent3d, Origin3d,
+    Queue, Texture, TextureView,
+};
+
+use super::pages::MAX_PAGES;
+use super::space::{Member, Move, Plan, Space};
+use super::words::GROUP_BYTES;
+use crate::RuntimeError;
+use crate::device::{Uploaded, array_view, empty_buffer, page_array, texel_sampler};
+
+/// What a set binds.
+#[derive(Clone, Debug)]
+pub(super) struct Memory {
+    pub(super) uploaded: Uploaded,
+    pub(super) group: BindGroup,
+}
+
+/// What is written anew.
+pub(super) struct Change<'a> {
+    pub(super) plan: &'a Plan,
+    pub(super) textures: &'a [Packed],
+    /// The texture that shows nothing.
+    pub(super) nothing: &'a [u32],
+}
+
+impl Memory {
+    /// What the plan needs, with everything in it. What there was before stays as it is, but for room that
+    /// nobody has. To be called in [`checked`](crate::device::checked).
+    pub(super) fn changed(
+        before: Option<&Self>,
+        device: &Device,
+        queue: &Queue,
+        layout: &BindGroupLayout,
+        change: &Change<'_>,
+    ) -> Result<Self, RuntimeError> {
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let uploaded = Uploaded {
+            words: words(before, device, &mut encoder, change.plan)?,
+            texels: texels(before, device, &mut encoder, &change.plan.space)?,
+            sampler: before.map_or_else(
+                || texel_sampler(device),
+                |before| before.uploaded.sampler.clone(),
+            ),
+        };
+        let memory = match before {
+            Some(before) if before.uploaded.binds_the_same(&uploaded) => before.clone(),
+            _ => Self::new(device, layout, uploaded),
+        };
+        // Before anything is written: writes come ahead of what is submitted next.
+        queue.submit([encoder.finish()]);
+        memory.write(queue, change);
+        Ok(memory)
+    }
+
+    pub(super) fn new(device: &Device, layout: &BindGroupLayout, uploaded: Uploaded) -> Self {
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("vtex set"),
+            layout,
+            entries: &uploaded.entries(0),
+        });
+        Self { uploaded, group }
+    }
+
+    fn write(&self, queue: &Queue, change: &Change<'_>) {
+        let Plan {
+            space,
+            added,
+            moves,
+        } = change.plan;
+        if moves.is_some() {
+            self.write_words(queue, 0, &table_words(space));
+            self.write_words(queue, space.nothing_word(), change.nothing);
+        }
+        for (&handle, texture) in added.iter().zip(change.textures) {
+            if let Some(member) = space.handles.get(handle) {
+                self.write_words(queue, 4 * space.first_group(member), &texture.words);
+                self.write_rooms(queue, member, &texture.texels);
+                if moves.is_none() {
+                    self.write_entry(queue, space, handle);
+                }
+            }
+        }
+    }
+
+    /// The entry of a handle, whether a texture has it or has it no more.
+    pub(super) fn write_entry(&self, queue: &Queue, space: &Space, handle: TextureHandle) {
+        let word = table::ENTRIES + table::ENTRY_WORDS * handle.slot();
+        self.write_words(queue, word, &entry(space, handle));
+    }
+
+    fn write_words(&self, queue: &Queue, first: u32, words: &[u32]) {
+        let bytes = bytemuck::cast_slice(words);
+        queue.write_buffer(&self.uploaded.words, 4 * u64::from(first), bytes);
+    }
+
+    fn write_rooms(&self, queue: &Queue, member: &Member, texels: &TexelPages) {
+        let [width, height] = texels.size();
+        let page_bytes = 4 * u64::from(width) * u64::from(height);
+        for (page, room) in (0..).zip(&member.rooms) {
+            let [x, y] = room.place.corner;
+            let z = room.place.page;
+            let to = wgpu::TexelCopyTextureInfo {
+                origin: Origin3d { x, y, z },
+                ..self.uploaded.texels.texture().as_image_copy()
+            };
+            let rows = wgpu::TexelCopyBufferLayout {
+                offset: page * page_bytes,
+                bytes_per_row: Some(4 * width),
+                rows_per_image: Some(height),
+            };
+            let extent = Extent3d {
+                width,
+                height,
+                depth_or_array_layers: 1,
+            };
+            queue.write_texture(to, texels.bytes(), rows, extent);
+        }
+    }
+}
+
+/// The buffer that there is or, where the plan needs one, a new one with what is kept.
+fn words(
+    before: Option<&Memory>,
+    device: &Device,
+    encoder: &mut CommandEncoder,
+    plan: &Plan,
+) -> Result<Buffer, RuntimeError> {
+    let moves = match (before, &plan.moves) {
+        (Some(before), None) => return Ok(before.uploaded.words.clone()),
+        (_, moves) => moves.iter().flatten(),
+    };
+    let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
+    let buffer = empty_buffer(device, "vtex set", plan.space.buffer_bytes(), usage)?;
+    for (&Move { from, to, groups }, before) in moves.zip(before.into_iter().cycle()) {
+        let [from, to, size] = [from, to, groups].map(|at| GROUP_BYTES * u64::from(at));
+        encoder.copy_buffer_to_buffer(&before.uploaded.words, from, &buffer, to, size);
+    }
+    Ok(buffer)
+}
+
+/// The pages that there are or, where the space needs them, more and larger ones with what is kept.
+fn texels(
+    before: Option<&Memory>,
+    device: &Device,
+    encoder: &mut CommandEncoder,
+    space: &Space,
+) -> Result<TextureView, RuntimeError> {
+    // One texel is bound where there is nothing to sample.
+    let size = space.pages.size().map(|side| side.max(1));
+    let count = space.pages.count().max(1);
+    let Some(before) = before else {
+        return Ok(array_view(&page_array(device, size, count)?));
+    };
+    let view = &before.uploaded.texels;
+    let old = view.texture();
+    let held = old.depth_or_array_layers();
+    if [old.width(), old.height()] == size && count <= held {
+        return Ok(view.clone());
+    }
+    let most = device.limits().max_texture_array_layers.min(MAX_PAGES);
+    let grown = if count > held {
+        (held + held / 2).min(most).max(count)
+    } else {
+        held
+    };
+    let texture = page_array(device, size, grown)?;
+    let [from, to] = [old, &texture].map(Texture::as_image_copy);
+    encoder.copy_texture_to_texture(from, to, old.size());
+    Ok(array_view(&texture))
+}
+
+/// The whole table.
+fn table_words(space: &Space) -> Vec<u32> {
+    let mut words = vec![0; space.nothing_word() as usize];
+    words[table::COUNT as usize] = space.entries;
+    words[table::NOTHING as usize] = space.nothing_word();
+    let entries = words[table::ENTRIES as usize..].chunks_exact_mut(table::ENTRY_WORDS as usize);
+    for entry in entries {
+        entry[1] = space.nothing_word();
+    }
+    for (handle, _) in space.handles.iter() {
+        let first = table::ENTRIES + table::ENTRY_WORDS * handle.slot();
+        words[first as usize..][..table::ENTRY_WORDS as usize]
+            .copy_from_slice(&entry(space, handle));
+    }
+    words
+}
+
+/// An entry without a texture leads to the one that shows nothing, also for the handle of zeros.
+fn entry(space: &Space, handle: TextureHandle) -> [u32; table::ENTRY_WORDS as usize] {
+    space.handles.get(handle).map_or_else(
+        || [0, space.nothing_word()],
+        |member| [handle.to_bits(), 4 * space.first_group(member)],
+    )
+}

@@ -1,0 +1,299 @@
+//! Many textures in one shader of somebody else: what comes and goes, and what is refused.
+//!
+//! `VTEX_GPU=off` skips these tests and says so; without it a missing adapter is a failure.
+
+#![expect(
+    clippy::unwrap_used,
+    reason = "helpers of tests fail as tests do, by panicking"
+)]
+
+mod limits;
+mod queue;
+
+use std::collections::BTreeSet;
+
+use vtex_format::{Features, VtexFile};
+use vtex_runtime::{
+    BatchQuery, BatchSampler, FilterMode, Gpu, LoadOptions, TextureHandle, TextureQuery,
+    TextureSet, TextureSetOptions, Trust, wgpu,
+};
+use vtex_shaders::{pack, spec_key};
+use vtex_tests::fixture::random_texture;
+use vtex_tests::gpu::shared as gpu;
+use vtex_tests::parity::{Subject, random_queries};
+use wgpu::util::DeviceExt as _;
+
+const OUTLINES: u32 = Features::LISTS | Features::CURVES | Features::MIPS;
+const KINDS: [u32; 3] = [
+    OUTLINES | Features::GRADIENTS,
+    Features::LISTS | Features::MSDF | Features::IMAGES | Features::MIPS | Features::TRANSLUCENT,
+    OUTLINES | Features::GROUPS | Features::MAPPING,
+];
+
+/// Textures of three kinds in turn.
+fn file(seed: u64) -> VtexFile {
+    random_texture(seed, KINDS[(seed % 3) as usize])
+}
+
+fn options(filter: FilterMode) -> LoadOptions {
+    let mut options = LoadOptions::default();
+    options.pack.filter = filter;
+    options.pack.halvings = Some(1);
+    options
+}
+
+/// The user's shader, compiled once.
+struct Shader {
+    pipeline: wgpu::ComputePipeline,
+}
+
+const SHADER: &str = "
+struct Ask { uv: vec2f, handle: u32, user: u32, footprint: vec4f }
+@group(1) @binding(0) var<storage, read> asks: array<Ask>;
+@group(1) @binding(1) var<storage, read_write> colors: array<vec4f>;
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3u) {
+    if id.x < arrayLength(&asks) {
+        let ask = asks[id.x];
+        colors[id.x] = vtex_sample(ask.handle, ask.uv, ask.footprint);
+    }
+}
+";
+
+impl Shader {
+    fn new(gpu: &Gpu, set: &TextureSet) -> Self {
+        let device = &gpu.device;
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: None,
+            source: wgpu::ShaderSource::Wgsl((set.wgsl_fragment(0, 0) + SHADER).into()),
+        });
+        let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        };
+        let own = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: None,
+            entries: &[entry(0, true), entry(1, false)],
+        });
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: None,
+            bind_group_layouts: &[Some(set.bind_group_layout()), Some(&own)],
+            immediate_size: 0,
+        });
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: None,
+            layout: Some(&layout),
+            module: &module,
+            entry_point: Some("main"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        });
+        Self { pipeline }
+    }
+
+    fn run(&self, gpu: &Gpu, set: &wgpu::BindGroup, queries: &[TextureQuery]) -> Vec<[f32; 4]> {
+        let (device, queue) = (&gpu.device, &gpu.queue);
+        let asks = storage(gpu, queries);
+        let colors = storage(gpu, &vec![[9.0_f32; 4]; queries.len()]);
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &self.pipeline.get_bind_group_layout(1),
+            entries: &[(0, &asks), (1, &colors)].map(|(binding, buffer)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.as_entire_binding(),
+            }),
+        });
+        let mut encoder = device.create_command_encoder(&Default::default());
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, set, &[]);
+        pass.set_bind_group(1, &group, &[]);
+        pass.dispatch_workgroups(u32::try_from(queries.len().div_ceil(64)).unwrap(), 1, 1);
+        drop(pass);
+        queue.submit([encoder.finish()]);
+        read(gpu, &colors)
+    }
+}
+
+fn storage<T: bytemuck::Pod>(gpu: &Gpu, contents: &[T]) -> wgpu::Buffer {
+    gpu.device
+        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: None,
+            contents: bytemuck::cast_slice(contents),
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+        })
+}
+
+fn read<T: bytemuck::Pod>(gpu: &Gpu, buffer: &wgpu::Buffer) -> Vec<T> {
+    let staging = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: buffer.size(),
+        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, buffer.size());
+    gpu.queue.submit([encoder.finish()]);
+    staging.map_async(wgpu::MapMode::Read, .., |mapped| mapped.unwrap());
+    gpu.device
+        .poll(wgpu::PollType::wait_indefinitely())
+        .unwrap();
+    let view = staging.get_mapped_range(..).unwrap();
+    bytemuck::pod_collect_to_vec(&view)
+}
+
+/// The same lookups in a texture of a set.
+fn of(handle: TextureHandle, queries: &[BatchQuery]) -> Vec<TextureQuery> {
+    let query = |query: &BatchQuery| TextureQuery {
+        uv: query.uv,
+        handle,
+        user: 7,
+        footprint: query.footprint,
+    };
+    queries.iter().map(query).collect()
+}
+
+fn set(gpu: &Gpu, options: &TextureSetOptions) -> TextureSet {
+    TextureSet::new(&gpu.device, &gpu.queue, options).unwrap()
+}
+
+#[test]
+fn three_textures_in_one_shader_answer_as_each_alone() {
+    let Some(gpu) = gpu() else { return };
+    let mut set = set(gpu, &TextureSetOptions::default());
+    let filters = [FilterMode::Point, FilterMode::Footprint, FilterMode::Point];
+    let textures: Vec<_> = (0..)
+        .zip(filters)
+        .map(|(seed, filter)| (file(seed), options(filter)))
+        .collect();
+    let handles = set
+        .add_all(textures.iter().map(|(file, options)| (file, options)))
+        .unwrap();
+    let shader = Shader::new(gpu, &set);
+    for (index, ((file, options), &handle)) in textures.iter().zip(&handles).enumerate() {
+        let queries = random_queries(index as u64, 4000, 0.3);
+        let ours = shader.run(gpu, set.bind_group(), &of(handle, &queries));
+        let packed = pack(file, &options.pack);
+        let subject = Subject {
+            words: &packed.words,
+            texels: &packed.texels,
+            features: spec_key(file, &options.pack).features,
+        };
+        let twin = subject.twin(&queries);
+        let parity = subject.compare(&queries, &twin, &ours);
+        parity
+            .check()
+            .unwrap_or_else(|problem| panic!("texture {index}: {problem}"));
+        let alone =
+            BatchSampler::new(&gpu.device, &gpu.queue, file, options, Trust::Regenerate).unwrap();
+        let alone = alone.sample(&queries).unwrap();
+        let parity = subject.compare(&queries, &alone, &ours);
+        parity
+            .check()
+            .unwrap_or_else(|problem| panic!("texture {index}: {problem}"));
+        let shown: BTreeSet<_> = ours.iter().map(|c| c.map(f32::to_bits)).collect();
+        assert!(shown.len() > 10, "texture {index} shows something");
+    }
+}
+
+#[test]
+fn what_stays_is_the_same_bit_for_bit_while_others_come_and_go() {
+    let Some(gpu) = gpu() else { return };
+    let mut set = set(
+        gpu,
+        &TextureSetOptions {
+            page_side: 256,
+            ..TextureSetOptions::every_feature(FilterMode::Footprint)
+        },
+    );
+    let shader = Shader::new(gpu, &set);
+    let key = *set.key();
+    let options = options(FilterMode::Footprint);
+    let files: Vec<VtexFile> = (0..40).map(file).collect();
+    let kept: Vec<TextureHandle> = files[..3]
+        .iter()
+        .map(|file| set.add(file, &options).unwrap())
+        .collect();
+    let queries: Vec<TextureQuery> = kept
+        .iter()
+        .flat_map(|&handle| of(handle, &random_queries(5, 700, 0.3)))
+        .collect();
+    let before = shader.run(gpu, set.bind_group(), &queries);
+    let (group, generation, bytes) = (set.bind_group().clone(), set.generation(), set.bytes());
+
+    let others = set
+        .add_all(files[3..].iter().map(|file| (file, &options)))
+        .unwrap();
+    assert!(set.generation() > generation, "the buffer has grown");
+    assert!(set.bytes().words_held > bytes.words_held);
+    assert!(
+        set.texels().texture().depth_or_array_layers() > 1,
+        "and so have the pages"
+    );
+    assert!(shader.run(gpu, set.bind_group(), &queries) == before);
+    assert!(
+        shader.run(gpu, &group, &queries) == before,
+        "the group from before still shows what it had"
+    );
+    let own = of(others[5], &random_queries(5, 700, 0.3));
+    let other = shader.run(gpu, set.bind_group(), &own);
+    assert!(
+        shader
+            .run(gpu, &group, &own)
+            .iter()
+            .flatten()
+            .all(|&c| c == 0.0)
+    );
+
+    // Every second of the others goes: their room is used again, by textures with other handles.
+    let (generation, bytes) = (set.generation(), set.bytes());
+    for &handle in others.iter().step_by(2) {
+        assert!(set.remove(handle) && !set.contains(handle));
+        assert!(!set.remove(handle), "once");
+    }
+    assert!(shader.run(gpu, set.bind_group(), &queries) == before);
+    let again: Vec<_> = files[3..]
+        .iter()
+        .step_by(2)
+        .map(|file| (file, &options))
+        .collect();
+    let again = set.add_all(again).unwrap();
+    assert_eq!(set.len(), 40);
+    let handles: BTreeSet<_> = kept.iter().chain(&others).chain(&again).collect();
+    assert_eq!(handles.len(), 40 + again.len(), "no handle is given twice");
+    assert_eq!(set.bytes().words, bytes.words);
+    assert_eq!(set.bytes().words_held, bytes.words_held);
+    assert_eq!(set.generation(), generation);
+    assert!(shader.run(gpu, set.bind_group(), &queries) == before);
+    assert!(shader.run(gpu, set.bind_group(), &own) == other);
+    for (&gone, &new) in others.iter().step_by(2).zip(&again) {
+        let lookups = [gone, new].map(|handle| of(handle, &random_queries(9, 200, 0.1)));
+        let [gone, new] = lookups.map(|lookups| shader.run(gpu, set.bind_group(), &lookups));
+        assert!(gone.iter().flatten().all(|&channel| channel == 0.0));
+        assert!(new.iter().flatten().any(|&channel| channel > 0.0));
+    }
+    assert_eq!(*set.key(), key, "nothing was to be compiled");
+}
+
+#[test]
+fn the_key_tells_when_a_texture_needs_more_code() {
+    let Some(gpu) = gpu() else { return };
+    let mut set = set(gpu, &TextureSetOptions::default());
+    let options = options(FilterMode::Point);
+    set.add(&random_texture(1, OUTLINES), &options).unwrap();
+    let (key, text) = (*set.key(), set.wgsl_fragment(2, 3));
+    set.add(&random_texture(2, OUTLINES), &options).unwrap();
+    assert_eq!(*set.key(), key);
+    let gradients = set.add(&file(0), &options).unwrap();
+    assert_ne!(*set.key(), key);
+    assert_ne!(set.wgsl_fragment(2, 3), text);
+    let key = *set.key();
+    set.remove(gradients);
+    assert_eq!(*set.key(), key, "a smaller text is no reason to compile");
+}
