@@ -65,7 +65,7 @@ mod testing;
 mod tests;
 mod warning;
 
-pub use config::{BakeConfig, ImageReader, Mode, Resources, Stage};
+pub use config::{BakeConfig, ImageReader, Mode, Profile, Resources, Stage};
 pub use error::BakeError;
 pub use pipeline::{bake, bake_observed};
 pub use svg::font_selector;

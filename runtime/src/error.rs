@@ -19,6 +19,10 @@ pub enum RuntimeError {
     /// The file asks for what this version does not know.
     #[error("unsupported texture: {0}")]
     Unsupported(String),
+    /// A file cannot be read.
+    #[cfg(any(feature = "zstd", feature = "ruzstd"))]
+    #[error(transparent)]
+    File(#[from] vtex_format::ReadError),
     /// A shader or pipeline was refused: a defect of this crate or of a driver.
     #[error("shader: {0}")]
     Shader(String),

@@ -32,7 +32,6 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod batch;
-mod cores;
 mod device;
 mod error;
 mod gpu;

@@ -1,7 +1,7 @@
 //! A `.vtex` file on the GPU, for use in any shader.
 
 use vtex_format::{SpecKey, VtexFile};
-use vtex_shaders::PackOptions;
+use vtex_shaders::{PackOptions, Packed};
 use wgpu::{BindGroup, BindGroupLayout, Buffer, Device, Queue, Sampler, ShaderStages, TextureView};
 
 use crate::RuntimeError;
@@ -21,7 +21,7 @@ pub fn parse_all<B: AsRef<[u8]> + Sync>(
     files: &[B],
     limits: &vtex_format::Limits,
 ) -> Vec<Result<VtexFile, vtex_format::ReadError>> {
-    crate::cores::map_all(files, 0, |bytes| VtexFile::parse(bytes.as_ref(), limits))
+    vtex_shaders::cores::map_all(files, 0, |bytes| VtexFile::parse(bytes.as_ref(), limits))
 }
 
 /// One vector texture on the GPU: a read-only storage buffer, a texture with the texels of its images,
@@ -82,7 +82,54 @@ impl GpuVtex {
     ) -> Result<Self, RuntimeError> {
         let packed = vtex_shaders::pack(file, &options.pack);
         // Not `file.spec`: options such as the filter mode need other code.
-        let key = vtex_shaders::kernel_key(&vtex_shaders::spec_key(file, &options.pack));
+        let key = vtex_shaders::spec_key(file, &options.pack);
+        Self::upload_packed(device, queue, &packed, &key).await
+    }
+
+    /// Reads, packs and uploads the bytes of a file. A file of `vtex bake --profile load` carries what
+    /// packing makes of it, so that it loads several times as fast as by [`VtexFile::parse`] and
+    /// `GpuVtex::upload`.
+    ///
+    /// # Errors
+    /// [`RuntimeError::File`] for bytes that are no file or ask for more than `limits`, and those of
+    /// `GpuVtex::upload`.
+    #[cfg(all(feature = "blocking", not(target_arch = "wasm32")))]
+    #[cfg(any(feature = "zstd", feature = "ruzstd"))]
+    pub fn load(
+        device: &Device,
+        queue: &Queue,
+        bytes: &[u8],
+        limits: &vtex_format::Limits,
+        options: &LoadOptions,
+    ) -> Result<Self, RuntimeError> {
+        let loaded = Self::load_async(device, queue, bytes, limits, options);
+        crate::device::block_on(device, loaded)
+    }
+
+    /// As `GpuVtex::load`, for callers that must not block.
+    ///
+    /// # Errors
+    /// [`RuntimeError::File`] for bytes that are no file or ask for more than `limits`, and those of
+    /// [`GpuVtex::upload_async`].
+    #[cfg(any(feature = "zstd", feature = "ruzstd"))]
+    pub async fn load_async(
+        device: &Device,
+        queue: &Queue,
+        bytes: &[u8],
+        limits: &vtex_format::Limits,
+        options: &LoadOptions,
+    ) -> Result<Self, RuntimeError> {
+        let loaded = vtex_shaders::load(bytes, limits, &options.pack)?;
+        Self::upload_packed(device, queue, &loaded.packed, &loaded.key).await
+    }
+
+    async fn upload_packed(
+        device: &Device,
+        queue: &Queue,
+        packed: &Packed,
+        key: &SpecKey,
+    ) -> Result<Self, RuntimeError> {
+        let key = vtex_shaders::kernel_key(key);
         checked(device, "texture", || {
             let uploaded = Uploaded::new(device, queue, &packed.words, &packed.texels)?;
             let layout = texture_layout(device);

@@ -16,7 +16,10 @@
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+#[doc(hidden)]
+pub mod cores;
 pub mod cpu;
+mod fine;
 pub mod layout;
 mod link;
 mod pack;
@@ -32,8 +35,11 @@ pub mod srgb;
 mod subdivide;
 mod texels;
 
+pub use fine::{check_fine, fine_words};
 pub use layout::{BatchQuery, FilterMode, FootprintSamples};
 pub use link::{LinkContext, LinkError, link};
+#[cfg(feature = "decode")]
+pub use pack::{Loaded, load};
 pub use pack::{PackOptions, pack, pack_in_pages, pack_set};
 pub use packed::{Packed, PackedSet};
 #[cfg(feature = "precompile")]

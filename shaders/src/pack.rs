@@ -8,11 +8,13 @@ use vtex_format::{
     SpecKey, VtexFile,
 };
 
+use crate::cores::map_all;
 use crate::cpu::{color, to_f32, to_u32};
+use crate::fine;
 use crate::layout::{FilterMode, FootprintSamples, OFFSET_END, gradient, header, image, paint};
 use crate::packed::{Packed, PackedSet, place_word};
 use crate::spec::spec_key;
-use crate::subdivide::subdivide;
+use crate::subdivide::{Grid, subdivide};
 use crate::texels::{Level, MAX_PAGE_SIDE, Place, TexelPages, levels_of};
 
 /// Evaluators read four words at a time.
@@ -60,7 +62,8 @@ pub fn pack(file: &VtexFile, options: &PackOptions) -> Packed {
 /// As [`pack`], for a set of many: a page has at most `page_side` texels a side, more only where a level
 /// of an image has. [`Packed::move_pages`] says where the pages come to lie.
 pub fn pack_in_pages(file: &VtexFile, options: &PackOptions, page_side: u32) -> Packed {
-    let set = packed_set([(file, options)], page_side);
+    let words = texture_words(file, options);
+    let set = joined(std::iter::once((file, words)), page_side);
     Packed {
         words: set.words,
         texels: set.texels,
@@ -69,23 +72,28 @@ pub fn pack_in_pages(file: &VtexFile, options: &PackOptions, page_side: u32) -> 
 
 /// Textures that share their words and texels, each as [`pack`] has it. The text is that of all their
 /// features.
+///
+/// Several are packed at once, on as many threads as the machine has cores.
 pub fn pack_set<'a>(
     textures: impl IntoIterator<Item = (&'a VtexFile, &'a PackOptions)>,
 ) -> PackedSet {
-    packed_set(textures, MAX_PAGE_SIDE)
+    let textures: Vec<_> = textures.into_iter().collect();
+    let words = map_all(&textures, 0, |(file, options)| texture_words(file, options));
+    let files = textures.into_iter().map(|(file, _)| file);
+    joined(files.zip(words), MAX_PAGE_SIDE)
 }
 
-fn packed_set<'a>(
-    textures: impl IntoIterator<Item = (&'a VtexFile, &'a PackOptions)>,
+/// Puts textures' words one behind the other, and the texels of their images into pages.
+fn joined<'a>(
+    textures: impl Iterator<Item = (&'a VtexFile, Vec<u32>)>,
     page_side: u32,
 ) -> PackedSet {
     let mut words = Vec::new();
     let mut first_words = Vec::new();
     let mut images = Vec::new();
     let mut levels = Vec::new();
-    for (file, options) in textures {
+    for (file, texture) in textures {
         first_words.push(word_index(words.len()));
-        let texture = texture_words(file, options);
         images.extend(image_levels(&mut levels, words.len(), &texture, file));
         // One texture alone is not copied.
         match words.is_empty() {
@@ -104,23 +112,80 @@ fn packed_set<'a>(
     }
 }
 
+/// A file that was read to be looked up and for nothing else.
+#[cfg(feature = "decode")]
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// What evaluators read, as [`pack`] makes it.
+    pub packed: Packed,
+    /// As [`spec_key`] gives it.
+    pub key: SpecKey,
+    /// Canvas, grid and sampler settings of the file.
+    pub meta: vtex_format::Meta,
+    /// The shader that the file carries.
+    pub shader: vtex_format::ShaderBlob,
+}
+
+/// Reads and packs a file. Where it carries its fine cells for these options (`vtex bake --profile load`)
+/// it need not decode and cut its outlines: that takes a fraction of the time of
+/// [`VtexFile::parse`](vtex_format::VtexFile::parse) and [`pack`]. The result is the same.
+///
+/// # Errors
+/// As [`VtexFile::parse_unless`](vtex_format::VtexFile::parse_unless).
+#[cfg(feature = "decode")]
+pub fn load(
+    bytes: &[u8],
+    limits: &vtex_format::Limits,
+    options: &PackOptions,
+) -> Result<Loaded, vtex_format::ReadError> {
+    let mut grid = None;
+    let file = VtexFile::parse_unless(bytes, limits, &mut |file| {
+        grid = stored_grid(file, options);
+        grid.is_some()
+    })?;
+    let words = match grid {
+        Some(grid) => words_of(&file, options, &grid, fine::commands(&file)),
+        None => texture_words(&file, options),
+    };
+    let set = joined(std::iter::once((&file, words)), MAX_PAGE_SIDE);
+    Ok(Loaded {
+        packed: Packed {
+            words: set.words,
+            texels: set.texels,
+        },
+        key: spec_key(&file, options),
+        meta: file.meta,
+        shader: file.shader,
+    })
+}
+
 /// A texture's words, in which the images' texels have no place yet.
 fn texture_words(file: &VtexFile, options: &PackOptions) -> Vec<u32> {
+    if let Some(grid) = stored_grid(file, options) {
+        return words_of(file, options, &grid, fine::commands(file));
+    }
+    let made = subdivide(file, options.filter, options.halvings);
+    words_of(file, options, &made.grid, made.commands.as_flattened())
+}
+
+/// The cells that the file carries, where they are those that these options ask for.
+fn stored_grid(file: &VtexFile, options: &PackOptions) -> Option<Grid> {
+    if file.fine.is_empty() || options.halvings.is_some() {
+        return None;
+    }
+    fine::grid(file, options.filter, spec_key(file, options).features)
+}
+
+fn words_of(file: &VtexFile, options: &PackOptions, grid: &Grid, commands: &[u32]) -> Vec<u32> {
     let key = spec_key(file, options);
-    let subdivision = subdivide(file, options.filter, options.halvings);
     let mut words = header_words(file, options, &key);
-    let grid = &subdivision.grid;
     let [right, bottom] = file.meta.grid.size_cells.map(last_place);
     let columns = to_f32(word_index(grid.size[0]));
     let base = [right, bottom, grid.base_per_cell(), columns].map(f32::to_bits);
     words[header::BASE as usize..][..4].copy_from_slice(&base);
-    words.reserve(grid.words.len() + 4 * subdivision.commands.len() + file.tiles.len() / 4);
+    words.reserve(grid.words.len() + commands.len() + file.tiles.len() / 4);
     section(&mut words, header::CELLS, &grid.words);
-    section(
-        &mut words,
-        header::COMMANDS,
-        subdivision.commands.as_flattened(),
-    );
+    section(&mut words, header::COMMANDS, commands);
     paint_section(&mut words, file);
     let texels = file.tiles.chunks_exact(4);
     let tiles: Vec<u32> = texels

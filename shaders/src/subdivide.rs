@@ -26,7 +26,8 @@ use vtex_format::{CellWord, Features, VtexFile};
 
 use crate::layout::{FilterMode, cell};
 use depth::Model;
-use grid::{Grid, Picture};
+use grid::Picture;
+pub(crate) use grid::{Grid, LARGEST, SMALLEST, Side, base_size, block_words};
 use lists::Lists;
 use outline::Region;
 use tree::{Divider, Tree};

@@ -1,6 +1,7 @@
 //! The back half: from the drawing to the file.
 
 use vtex_format::VtexFile;
+use vtex_shaders::{FilterMode, fine_words};
 
 use super::{
     gpu_budget,
@@ -15,7 +16,7 @@ use crate::{
         paint_table::{PaintTable, number_paints},
         tiles::render_tiles,
     },
-    config::{BakeConfig, Stage},
+    config::{BakeConfig, Profile, Stage},
     drawing::Drawing,
     error::BakeError,
     raster::canvas,
@@ -76,5 +77,10 @@ pub(crate) fn assemble(
         let words = canvas::add_mips(&mut file, size, config.mode);
         gpu_budget::warn(&mut file, words, config.gpu_budget_bytes);
     }
+    file.fine = match config.profile {
+        Profile::Size => Vec::new(),
+        Profile::Load => fine_words(&file, FilterMode::Point),
+        Profile::LoadFootprints => fine_words(&file, FilterMode::Footprint),
+    };
     Ok(file)
 }

@@ -3,7 +3,7 @@
 use vtex_format::{Finding, Preparation, Provenance, ShapeReport, Warning};
 
 use crate::{
-    config::BakeConfig,
+    config::{BakeConfig, Profile},
     coverage::{
         placed::{Placed, PlacedKind},
         verdict::Coverage,
@@ -118,6 +118,13 @@ fn options(config: &BakeConfig) -> Vec<(String, String)> {
     ]
     .map(|(name, value)| (name.into(), value))
     .into();
+    // What is small for all is not made longer by saying so.
+    let profile = match config.profile {
+        Profile::Size => None,
+        Profile::Load => Some("load"),
+        Profile::LoadFootprints => Some("load-footprints"),
+    };
+    options.extend(profile.map(|name| ("profile".into(), name.into())));
     options.sort();
     options
 }

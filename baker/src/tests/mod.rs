@@ -4,3 +4,4 @@ mod corpus;
 mod curve_cells;
 mod gradients;
 mod pictures;
+mod profiles;

@@ -51,3 +51,12 @@ pub(crate) fn content(file: &VtexFile, issues: &mut Issues) {
         prov::provenance(provenance, file.shapes.len(), issues);
     }
 }
+
+/// Checks a value of which a reader has left out the lists and what lookups do not need.
+pub(crate) fn without_lists(file: &VtexFile, issues: &mut Issues) {
+    paints::paints(file, issues);
+    meta::outline_paint(file, issues);
+    images::images(file, issues);
+    images::tiles(file, issues);
+    spec::spec(file, issues);
+}

@@ -61,6 +61,20 @@ impl fmt::Display for Issue {
 /// Most issues that are collected: a broken file can hold millions, and nobody reads them.
 pub(crate) const MAX_ISSUES: usize = 256;
 
+impl Issue {
+    /// The issue of a file whose [`VtexFile::fine`](crate::VtexFile::fine) words are not those that packing
+    /// makes of it. Only a packer can tell.
+    pub fn fine_cells() -> Self {
+        Self {
+            code: FINE_CELLS.code,
+            fault: FINE_CELLS.fault,
+            section: Tag::FINE,
+            offset_bytes: 0,
+            message: FINE_CELLS.summary.to_owned(),
+        }
+    }
+}
+
 /// Collects issues up to [`MAX_ISSUES`].
 #[derive(Debug, Default)]
 pub(crate) struct Issues {
@@ -225,6 +239,7 @@ issue_table! {
     LIST_MASK = 5032 Malformed "a mask in a list is not followed by its group";
     LIST_BLEND = 5033 Malformed "a group that is not isolated has a blend mode";
     LIST_BLEND_DEPTH = 5034 Malformed "a list needs more than 32 levels of the blend stack";
+    FINE_CELLS = 5040 Malformed "the fine cells are not those that packing makes of the file";
 
     TILE_BYTES = 6002 Malformed "the length of the tiles differs from what the layers require";
     TILE_ALPHA = 6003 Malformed "the alpha of a tile's texel is not 255";

@@ -37,6 +37,8 @@ impl Tag {
     pub const CURV: Self = Self(*b"CURV");
     /// Outlines that curve records are cut from: [`crate::StoredOutlines`].
     pub const OUTL: Self = Self(*b"OUTL");
+    /// Fine cells of one filter mode: [`crate::VtexFile::fine`].
+    pub const FINE: Self = Self(*b"FINE");
     /// MSDF tiles of a range of layers.
     pub const TILE: Self = Self(*b"TILE");
     /// Texels of one level of one image, or of all its small levels.
@@ -87,10 +89,10 @@ pub(crate) struct SectionKind {
 
 /// All sections of this version in file order: what bounds the others comes first, texels last. Small
 /// ones stand together, so that they share a bundle.
-pub(crate) const SECTIONS: [SectionKind; 15] = [
+pub(crate) const SECTIONS: [SectionKind; 16] = [
     section(Tag::META, true, true, false),
     section(Tag::SPEC, true, true, false),
-    // PROV, SHAP and SHDR are not critical: lookups do without them.
+    // PROV, SHAP, SHDR and FINE are not critical: lookups do without them.
     section(Tag::PROV, false, false, false),
     section(Tag::PANT, true, false, false),
     section(Tag::GRAD, true, false, false),
@@ -102,6 +104,7 @@ pub(crate) const SECTIONS: [SectionKind; 15] = [
     section(Tag::CURV, true, false, false),
     section(Tag::OUTL, true, false, false),
     section(Tag::SHDR, false, true, false),
+    section(Tag::FINE, false, false, false),
     section(Tag::TILE, true, false, true),
     section(Tag::MIPS, true, false, true),
 ];

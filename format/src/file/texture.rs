@@ -36,6 +36,9 @@ pub struct VtexFile {
     /// What `curves` is made from; a file then holds it instead of them, which takes a fraction of
     /// the bytes.
     pub outlines: Option<StoredOutlines>,
+    /// What packing makes of cells, lists and curves for one filter mode, so that a loader need not: its
+    /// ABI, then words that the packer of this ABI knows. Empty when the section was left out.
+    pub fine: Vec<u32>,
     /// MSDF tiles, layer by layer: [`LayerRecord`].
     pub tiles: Vec<u8>,
     /// Raster images; with [`crate::Features::MIPS`] the first is the canvas itself.
@@ -70,6 +73,7 @@ impl VtexFile {
             entries: Vec::new(),
             curves: Vec::new(),
             outlines: None,
+            fine: Vec::new(),
             tiles: Vec::new(),
             images: Vec::new(),
             provenance: None,

@@ -33,7 +33,23 @@ impl VtexFile {
     /// The first issue, by who is at fault; [`validate`] finds the others.
     pub fn parse(bytes: &[u8], limits: &Limits) -> Result<Self, ReadError> {
         let mut issues = Issues::default();
-        let file = read(bytes, limits, &mut issues);
+        let file = read(bytes, limits, None, &mut issues);
+        Ok(issues.accept(file)?)
+    }
+
+    /// As [`VtexFile::parse`], for loaders that need no lists. Where the file has [`VtexFile::fine`] cells
+    /// it is shown to `suffices` without cells, entries, curves, outlines, shapes and provenance. If that
+    /// says yes, none of them is read or checked. Else they are, and this does what `parse` does.
+    ///
+    /// # Errors
+    /// As [`VtexFile::parse`], as far as the file is read.
+    pub fn parse_unless(
+        bytes: &[u8],
+        limits: &Limits,
+        suffices: &mut dyn FnMut(&Self) -> bool,
+    ) -> Result<Self, ReadError> {
+        let mut issues = Issues::default();
+        let file = read(bytes, limits, Some(suffices), &mut issues);
         Ok(issues.accept(file)?)
     }
 }
@@ -42,11 +58,19 @@ impl VtexFile {
 /// nothing else can be found, and the content is only looked at when every section unpacks.
 pub fn validate(bytes: &[u8], limits: &Limits) -> Vec<Issue> {
     let mut issues = Issues::default();
-    read(bytes, limits, &mut issues);
+    read(bytes, limits, None, &mut issues);
     issues.into_vec()
 }
 
-fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> {
+/// Whether a file does without its lists.
+type Suffices<'a> = &'a mut dyn FnMut(&VtexFile) -> bool;
+
+fn read(
+    bytes: &[u8],
+    limits: &Limits,
+    suffices: Option<Suffices<'_>>,
+    issues: &mut Issues,
+) -> Option<VtexFile> {
     let directory = read_directory(bytes, limits, issues)?;
     let mut loader = Loader {
         bytes,
@@ -56,6 +80,15 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
     };
     // Lengths of the rest hang on these settings.
     let meta = loader.meta()?;
+    if let Some(suffices) = suffices
+        && !loader.all(Tag::FINE).is_empty()
+    {
+        let file = loader.without_lists(&meta)?;
+        check::without_lists(&file, loader.issues);
+        if !loader.issues.is_empty() || suffices(&file) {
+            return Some(file);
+        }
+    }
     // No `?` before all have been tried: `validate` lists the issues of every section.
     let spec = loader.spec();
     let provenance = loader.provenance();
@@ -68,6 +101,7 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
     let entries = loader.records(Tag::ENTR);
     let curves = loader.curves(&meta, limits);
     let shader = loader.shader();
+    let fine = loader.records(Tag::FINE);
     let tiles = layers
         .as_deref()
         .and_then(|layers| loader.tiles(&meta, layers));
@@ -90,6 +124,7 @@ fn read(bytes: &[u8], limits: &Limits, issues: &mut Issues) -> Option<VtexFile> 
         entries,
         curves,
         outlines,
+        fine: fine?,
         tiles: tiles?,
         images: images?,
         provenance: provenance?,
@@ -109,6 +144,36 @@ struct Loader<'a> {
 }
 
 impl Loader<'_> {
+    /// All but lists, what they are made of, and what lookups do not need.
+    fn without_lists(&mut self, meta: &Meta) -> Option<VtexFile> {
+        let spec = self.spec()?;
+        let paints = self.records(Tag::PANT)?;
+        let gradients = self.records(Tag::GRAD)?;
+        let layers: Vec<LayerRecord> = self.records(Tag::LAYR)?;
+        let images: Vec<ImageRecord> = self.records(Tag::IMAG)?;
+        let shader = self.shader()?;
+        let fine = self.records(Tag::FINE)?;
+        let tiles = self.tiles(meta, &layers)?;
+        let images = self.images(&images)?;
+        Some(VtexFile {
+            meta: meta.clone(),
+            spec,
+            shader,
+            paints,
+            gradients,
+            shapes: Vec::new(),
+            layers,
+            cells: Vec::new(),
+            entries: Vec::new(),
+            curves: Vec::new(),
+            outlines: None,
+            fine,
+            tiles,
+            images,
+            provenance: None,
+        })
+    }
+
     fn section(&self, index: usize) -> &SectionInfo {
         &self.directory.sections[index]
     }

@@ -116,6 +116,7 @@ impl VtexFile {
             Part::new(Tag::ENTR, words_to_little_endian(&entries).into_owned()),
             self.curve_part(),
             Part::new(Tag::SHDR, shader),
+            Part::new(Tag::FINE, words_to_little_endian(&self.fine)),
         ];
         parts.extend(self.tile_parts());
         parts.extend(self.mip_parts(&records));

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use vtex_format::{Codec, LayerRecord, Limits, Tag, VtexFile, directory, validate};
 
+use crate::forge::{put_together, take_apart};
 use crate::sample;
 
 fn round_trip(file: &VtexFile) {
@@ -76,6 +77,53 @@ fn outlines_and_records_give_the_same_lookups() {
 }
 
 #[test]
+fn a_loader_may_do_without_lists() {
+    let file = sample::outlined();
+    let limits = Limits::default();
+    let read = |bytes: &[u8], suffices: bool| {
+        let mut shown = 0;
+        let read = VtexFile::parse_unless(bytes, &limits, &mut |file| {
+            assert!(file.cells.is_empty() && file.curves.is_empty());
+            shown += 1;
+            suffices
+        });
+        (read, shown)
+    };
+    let bytes = file.to_bytes().unwrap();
+    let without = VtexFile {
+        shapes: Vec::new(),
+        cells: Vec::new(),
+        entries: Vec::new(),
+        curves: Vec::new(),
+        outlines: None,
+        provenance: None,
+        ..file.clone()
+    };
+    assert_eq!(read(&bytes, true), (Ok(without.clone()), 1));
+    assert_eq!(read(&bytes, false), (Ok(file.clone()), 1));
+    // Of outlines that are not read it is not known whether they are sound.
+    let mut sections = take_apart(&bytes);
+    let outlines = sections.iter_mut().find(|section| section.tag == *b"OUTL");
+    outlines.unwrap().refill(&[0; 8]);
+    let broken = put_together(&sections);
+    assert_eq!(read(&broken, true), (Ok(without), 1));
+    let (refused, _) = read(&broken, false);
+    assert_eq!(refused.unwrap_err().issue().code, 5021);
+    // What lookups need is checked before.
+    let mut sections = take_apart(&bytes);
+    let tiles = sections.iter_mut().find(|section| section.tag == *b"TILE");
+    tiles.unwrap().refill(&[0; 3]);
+    let (refused, shown) = read(&put_together(&sections), true);
+    assert_eq!((refused.unwrap_err().issue().code, shown), (6004, 0));
+    // A file without fine cells is read as a whole.
+    let plain = VtexFile {
+        fine: Vec::new(),
+        ..file
+    };
+    assert_eq!(read(&plain.to_bytes().unwrap(), true), (Ok(plain), 0));
+}
+
+#[test]
 fn arbitrary_files() {
     arbtest::arbtest(|u| {
         round_trip(&sample::arbitrary(u)?);
@@ -107,6 +155,7 @@ fn every_tag_is_there_in_file_order() {
         Tag::ENTR,
         Tag::CURV,
         Tag::SHDR,
+        Tag::FINE,
         Tag::TILE,
         Tag::MIPS,
     ];
@@ -141,7 +190,7 @@ fn what_shrinks_is_packed_and_what_is_large_has_a_bundle_of_its_own() {
             .collect();
         found
     };
-    assert_eq!(packed(&file), [(Tag::META, 16, Codec::Zstd)]);
+    assert_eq!(packed(&file), [(Tag::META, 17, Codec::Zstd)]);
     let noise = |i: u32| {
         u32::from_le_bytes(
             blake3::hash(&i.to_le_bytes()).as_bytes()[..4]
@@ -153,7 +202,7 @@ fn what_shrinks_is_packed_and_what_is_large_has_a_bundle_of_its_own() {
     let [records, shader, texels] = packed(&file).try_into().unwrap();
     assert_eq!(records, (Tag::META, 11, Codec::Zstd));
     assert_eq!(shader, (Tag::SHDR, 1, Codec::Raw));
-    assert_eq!(texels, (Tag::TILE, 4, Codec::Zstd));
+    assert_eq!(texels, (Tag::FINE, 5, Codec::Zstd));
 }
 
 #[test]

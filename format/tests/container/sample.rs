@@ -75,6 +75,7 @@ pub(crate) fn small() -> VtexFile {
             .collect(),
         // A record of 3 words, then one of 6.
         curves: [record(1, 0, 0), record(0, 2, 0)].concat(),
+        fine: vec![SHADER_ABI, 0, 7],
         tiles: tiles(3 * 9),
         images: vec![
             image([0.0, 0.0, 1.0, 1.0], [70, 1]),
@@ -314,6 +315,7 @@ pub(crate) fn arbitrary(u: &mut Unstructured<'_>) -> Result<VtexFile> {
         tiles: tiles((tile_count * texels_per_tile) as usize),
         curves: records.concat(),
         outlines: stored,
+        fine: (0..u.int_in_range(0..=5)?).collect(),
         provenance: None,
         meta,
         paints,

@@ -67,6 +67,7 @@ fn summary(bytes: &[u8]) -> String {
         entries,
         curves,
         outlines,
+        fine,
         tiles,
         images,
         provenance,
@@ -98,6 +99,10 @@ fn summary(bytes: &[u8]) -> String {
     ];
     for (name, value) in fields {
         writeln!(text, "{name} {value:?}").unwrap();
+    }
+    // Files that are kept are older than the section.
+    if !fine.is_empty() {
+        writeln!(text, "fine {fine:?}").unwrap();
     }
     text
 }

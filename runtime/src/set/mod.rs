@@ -14,10 +14,10 @@ use vtex_shaders::set::{TextureHandle, every_feature, set_fragment, set_key};
 use vtex_shaders::{BindingSlot, PackOptions, Packed, pack, pack_in_pages, spec_key};
 use wgpu::{BindGroup, BindGroupLayout, Buffer, Device, Queue, Sampler, TextureView};
 
-use crate::cores::map_all;
 use crate::device::checked;
 use crate::load::texture_layout;
 use crate::{LoadOptions, RuntimeError};
+use vtex_shaders::cores::map_all;
 
 use memory::{Change, Memory};
 use pages::PageLimits;

@@ -2,15 +2,19 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use vtex_format::MAX_GRID_SIDE;
+
 use super::hash;
 use super::tree::Tree;
 use crate::layout::{cell, has_list};
 
 /// A side of base cells: `2^side` cells of the file lie along one.
-pub(super) type Side = i32;
+pub(crate) type Side = i32;
 
 /// Base cells up to this much smaller than the file's are tried.
-const SMALLEST: Side = -2;
+pub(crate) const SMALLEST: Side = -2;
+/// No base cell is larger: one is as large as any grid.
+pub(crate) const LARGEST: Side = MAX_GRID_SIDE.ilog2().cast_signed() + 1;
 /// Blocks take whole groups of so many words.
 const BLOCK_WORDS: usize = cell::BLOCK_WORDS as usize;
 /// Deepest block.
@@ -33,12 +37,12 @@ pub(super) struct Picture {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Grid {
     /// `2^side` cells of the file lie along a base cell.
-    pub(super) side: Side,
+    pub(crate) side: Side,
     /// Columns and rows of base cells.
     pub(crate) size: [usize; 2],
     pub(crate) words: Vec<u32>,
     /// Whether blocks have levels coarser than their cells.
-    pub(super) has_levels: bool,
+    pub(crate) has_levels: bool,
 }
 
 /// Whether squares so often halved from a cell of the file are a level of blocks: one level in two, so
@@ -54,6 +58,22 @@ pub(super) fn levels(side: Side, depth: u32) -> impl Iterator<Item = u32> {
     (coarsest..depth)
         .rev()
         .filter(move |depth| is_level(depth.wrapping_sub(side.cast_unsigned())))
+}
+
+/// Columns and rows of base cells where so many of the file's cells lie along the sides of the grid.
+pub(crate) fn base_size(cells: [usize; 2], side: Side) -> [usize; 2] {
+    cells.map(|count| match side.try_into() {
+        Ok(side) => count.div_ceil(1_usize << u32::min(side, 31)),
+        Err(_) => count << side.unsigned_abs(),
+    })
+}
+
+/// Words that a block takes.
+pub(crate) fn block_words(side: Side, depth: u32, has_levels: bool) -> usize {
+    let levels = levels(side, depth).filter(|_| has_levels);
+    let words = |depth: u32| 1_usize << (2 * depth);
+    let all = words(depth) + levels.map(words).sum::<usize>();
+    all.next_multiple_of(BLOCK_WORDS)
 }
 
 impl Grid {
@@ -107,10 +127,7 @@ impl Picture {
     }
 
     fn base_size(&self, side: Side) -> [usize; 2] {
-        self.size.map(|count| match side.try_into() {
-            Ok(side) => count.div_ceil(1_usize << u32::min(side, 31)),
-            Err(_) => count << side.unsigned_abs(),
-        })
+        base_size(self.size, side)
     }
 
     fn content(&self, side: Side, [x, y]: [usize; 2]) -> Content {

@@ -7,6 +7,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
 
 use tempfile::TempDir;
+use vtex_format::{Limits, VtexFile};
 use vtex_testing::Corpus;
 
 const SQUARE: &str = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 8 8'>\
@@ -356,6 +357,28 @@ fn the_cache_keeps_no_bake_that_hangs_on_other_files() {
     told(&bench, &allowed);
     let (again, _) = told(&bench, &allowed);
     assert_eq!(again["cached"], true, "{again}");
+}
+
+#[test]
+fn fine_cells_that_lie_are_found() {
+    let bench = Bench::new();
+    bench.put("in.svg", SQUARE);
+    let baked = bench.run(&["bake", "in.svg", "-o", "out.vtex", "--profile", "load"]);
+    assert_eq!(baked.status.code(), Some(0), "{}", stderr(&baked));
+    let valid = bench.run(&["validate", "out.vtex"]);
+    assert_eq!(valid.status.code(), Some(0), "{}", stderr(&valid));
+    let bytes = fs::read(bench.path("out.vtex")).expect("the bake");
+    let mut file = VtexFile::parse(&bytes, &Limits::default()).expect("a sound file");
+    // The last command's first word: an end of a segment.
+    let end = file.fine.len() - 4;
+    file.fine[end] ^= 1;
+    bench.put(
+        "lie.vtex",
+        file.to_bytes().expect("the format knows no better"),
+    );
+    let lie = bench.run(&["validate", "lie.vtex"]);
+    assert_eq!(lie.status.code(), Some(3));
+    assert!(String::from_utf8_lossy(&lie.stdout).contains("V5040 FINE"));
 }
 
 /// Exit codes that satisfy the "expected" column of `EXPECTED.tsv`.

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, Result};
 use vtex_format::{Limits, VtexFile};
-use vtex_shaders::{PackOptions, Packed, pack};
+use vtex_shaders::{FilterMode, PackOptions, Packed, fine_words, load, pack};
 
 use super::sfg22::LAYER_SIZE;
 use super::{compared, left_out};
@@ -26,8 +26,13 @@ pub(crate) fn load_table(subjects: &[Subject], effort: Effort) -> Result<Table> 
     let load = format!("{} loads, ms", bc7[READ]);
     let mut columns = vec!["GPU bytes, KB (1000 bytes)", raster.as_str()];
     columns.extend(bc7.iter().map(String::as_str));
-    columns.extend(["[SFG22]", "bands", "vector", &read, "vector file", &load]);
-    columns.push("vector loads, ms");
+    columns.extend(["[SFG22]", "bands", "vector", &read, "vector file"]);
+    columns.extend([
+        "profile load",
+        &load,
+        "vector loads, ms",
+        "profile load, ms",
+    ]);
     let mut table = Table::new("GPU bytes and load time", &columns);
     table.note(format!(
         "Textures with all mips. `[SFG22]`: one RGBA8 layer of {LAYER_SIZE}^2 a shape. `bands`: \
@@ -36,7 +41,8 @@ pub(crate) fn load_table(subjects: &[Subject], effort: Effort) -> Result<Table> 
     ));
     table.note(format!(
         "Load times are from the file's bytes in memory to the bytes of the upload, on one thread. \
-         The vector texture: parsing, hashing, decoding, packing. BC7: unpacking each level's zstd \
+         The vector texture: parsing, hashing, decoding, packing; `profile load` is the file that \
+         `vtex bake --profile load` makes. BC7: unpacking each level's zstd \
          frame (level {ZSTD_LEVEL}), as KTX2 has it; nothing is hashed."
     ));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
@@ -55,10 +61,17 @@ pub(crate) fn load_table(subjects: &[Subject], effort: Effort) -> Result<Table> 
 
 fn row(subject: &Subject, texture: &[u8], effort: Effort) -> Result<Vec<Cell>> {
     let file = subject.file.to_bytes()?;
+    let fine = fine_words(&subject.file, FilterMode::Point);
+    let quick = VtexFile {
+        fine,
+        ..subject.file.clone()
+    }
+    .to_bytes()?;
     let packed = pack(&subject.file, &PackOptions::default());
     let trials = vec![
         Trial::timed(1, || timed(|| ktx2::read(texture))),
-        Trial::timed(1, || timed(|| load(&file))),
+        Trial::timed(1, || timed(|| loaded(&file))),
+        Trial::timed(1, || timed(|| loaded(&quick))),
     ];
     let timings = effort.interleave(trials)?;
     let kilobytes = |bytes: usize| Cell::Number(bytes as f64 / 1000.0, 1);
@@ -72,14 +85,14 @@ fn row(subject: &Subject, texture: &[u8], effort: Effort) -> Result<Vec<Cell>> {
         kilobytes(packed.bytes()),
         kilobytes(texture.len()),
         kilobytes(file.len()),
+        kilobytes(quick.len()),
     ]);
     cells.extend(compared(&timings, Timing::milliseconds));
     Ok(cells)
 }
 
-fn load(file: &[u8]) -> Result<Packed> {
-    let file = VtexFile::parse(file, &Limits::default())?;
-    Ok(pack(&file, &PackOptions::default()))
+fn loaded(file: &[u8]) -> Result<Packed> {
+    Ok(load(file, &Limits::default(), &PackOptions::default())?.packed)
 }
 
 fn timed<T>(work: impl FnOnce() -> Result<T>) -> Result<Duration> {

@@ -16,9 +16,10 @@ const SFG22_SHAPE_BYTES: u64 = 512 * 512 * 3;
 const HIGH_ZOOM: f32 = 256.0;
 
 /// Groups of sections, columns of the second table.
-const GROUPS: [(&str, &[Tag]); 6] = [
+const GROUPS: [(&str, &[Tag]); 7] = [
     ("curves", &[Tag::CURV, Tag::OUTL]),
     ("cells", &[Tag::CELL, Tag::ENTR]),
+    ("fine cells", &[Tag::FINE]),
     ("tiles", &[Tag::TILE]),
     ("images", &[Tag::IMAG, Tag::MIPS]),
     ("shader", &[Tag::SPEC, Tag::SHDR]),

@@ -15,7 +15,7 @@ use vtex_baker::{BakeConfig, BakeError, Mode, Resources, Stage};
 use vtex_format::{AddressMode, VtexFile};
 
 use crate::cli::args::{Address, BakeMode, BakeOptions};
-use crate::cli::{ExitCode, Failure, Outcome, panicked};
+use crate::cli::{ExitCode, Failure, Outcome, Profile, panicked};
 use fonts::FontLibrary;
 
 /// The baker's options for those of the command line; an option that is not given keeps the baker's
@@ -51,6 +51,11 @@ pub(crate) fn config(options: &BakeOptions) -> BakeConfig {
             .transform
             .map_or(default.texture_matrix, |matrix| matrix.0),
         gpu_budget_bytes: options.gpu_budget,
+        profile: match options.profile {
+            Profile::Size => vtex_baker::Profile::Size,
+            Profile::Load => vtex_baker::Profile::Load,
+            Profile::LoadFootprints => vtex_baker::Profile::LoadFootprints,
+        },
         ..default
     }
 }

@@ -10,7 +10,7 @@ use vtex_truth::picture::View;
 
 use super::Format;
 use super::lookup::{Filter, Lookup};
-use super::values::{Color, Matrix, Size, bytes, color, matrix, number, size, view};
+use super::values::{Color, Matrix, Profile, Size, bytes, color, matrix, number, size, view};
 
 /// Bake SVG drawings into vector textures (.vtex), and inspect, check, compare and render them.
 #[derive(Debug, Parser)]
@@ -208,6 +208,9 @@ pub(crate) struct BakeOptions {
     /// Texture matrix of lookups: u' = a u + c v + e, v' = b u + d v + f
     #[arg(long, value_name = "a,b,c,d,e,f", value_parser = matrix, allow_hyphen_values = true)]
     pub(crate) transform: Option<Matrix>,
+    /// What the files are made for
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) profile: Profile,
     /// Also draw image files that the SVG names, if they are in DIR or a folder inside it; repeat
     /// for more folders. Other image files are left out with a warning. Nothing is loaded from the
     /// network

@@ -10,4 +10,4 @@ mod values;
 pub(crate) use console::{Console, Format, Verbosity, counted};
 pub(crate) use failure::{ExitCode, Failure, Outcome};
 pub(crate) use panics::{keep_places, panicked};
-pub(crate) use values::Size;
+pub(crate) use values::{Profile, Size};

@@ -1,5 +1,6 @@
 //! Values of options: how the text on the command line is read.
 
+use clap::ValueEnum;
 use vtex_truth::picture::View;
 
 /// A colour, straight alpha, sRGB-encoded. A struct, so that clap does not see a list.
@@ -116,6 +117,18 @@ pub(super) fn color(text: &str) -> Result<Color, String> {
         .map_err(|_| "not a CSS colour, such as #d03020 or navy".to_owned())?;
     let channels = [color.red, color.green, color.blue, color.alpha];
     Ok(Color(channels.map(|c| f32::from(c) / 255.0)))
+}
+
+/// What files are made for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Profile {
+    /// Small files
+    #[default]
+    Size,
+    /// Files that load several times as fast, for lookups of points, and are about half as large again
+    Load,
+    /// The same, for lookups with the filter mode footprint
+    LoadFootprints,
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! `vtex validate`.
 
 use serde_json::{Value, json};
-use vtex_format::{Fault, Issue, Limits, validate};
+use vtex_format::{Fault, Issue, Limits, VtexFile, validate};
+use vtex_shaders::check_fine;
 
 use crate::cli::args::Validate;
 use crate::cli::{Console, ExitCode, Failure, Format, Outcome, counted};
@@ -15,7 +16,7 @@ pub(super) fn run(args: &Validate, console: Console) -> Outcome<ExitCode> {
         let name = path.display();
         match input::read(path) {
             Ok(bytes) => {
-                let issues = validate(&bytes, &Limits::default());
+                let issues = issues(&bytes);
                 worst = worst.max(code(&issues));
                 if console.format == Format::Text {
                     let text = match issues.as_slice() {
@@ -48,6 +49,18 @@ pub(super) fn run(args: &Validate, console: Console) -> Outcome<ExitCode> {
         console.json(&Value::Array(reports))?;
     }
     Ok(worst)
+}
+
+/// The issues of the format, and if there are none, whether fine cells show what the lists do.
+fn issues(bytes: &[u8]) -> Vec<Issue> {
+    let limits = Limits::default();
+    let issues = validate(bytes, &limits);
+    match VtexFile::parse(bytes, &limits) {
+        Ok(file) if issues.is_empty() && !file.fine.is_empty() => {
+            check_fine(&file).into_iter().collect()
+        }
+        _ => issues,
+    }
 }
 
 fn code(issues: &[Issue]) -> ExitCode {

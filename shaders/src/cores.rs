@@ -3,7 +3,7 @@
 /// What `work` makes of each item, in their order. At most `most` threads work, of which the calling one
 /// is one; 0 means as many as there are cores. A browser's page has one.
 #[cfg(not(target_arch = "wasm32"))]
-pub(crate) fn map_all<T: Sync, R: Send>(
+pub fn map_all<T: Sync, R: Send>(
     items: &[T],
     most: usize,
     work: impl Fn(&T) -> R + Sync,
@@ -44,7 +44,7 @@ pub(crate) fn map_all<T: Sync, R: Send>(
 
 /// What `work` makes of each item, in their order.
 #[cfg(target_arch = "wasm32")]
-pub(crate) fn map_all<T, R>(items: &[T], _most: usize, work: impl Fn(&T) -> R) -> Vec<R> {
+pub fn map_all<T, R>(items: &[T], _most: usize, work: impl Fn(&T) -> R) -> Vec<R> {
     items.iter().map(work).collect()
 }
 
