@@ -37,22 +37,31 @@ pub(super) fn axes(sampler: &Sampler<'_>, axes: [f32; 4]) -> [f32; 4] {
 }
 
 /// Axes in uv, after the matrix. In clamp mode, beyond a side of the canvas all of a footprint shows
-/// what the side does.
+/// what the side does. In mirror mode, what is mirrored is so with its footprint.
 pub(super) fn kept(sampler: &Sampler<'_>, uv: [f32; 2], mut axes: [f32; 4]) -> [f32; 4] {
     for axis in 0..2 {
-        let clamps = sampler.settings.address[axis] == CLAMP;
-        if clamps && clamp(uv[axis], 0.0, 1.0) != uv[axis] {
-            (axes[axis], axes[axis + 2]) = (0.0, 0.0);
-        }
+        let t = uv[axis];
+        let kept: fn(f32) -> f32 = match sampler.settings.address[axis] {
+            CLAMP if clamp(t, 0.0, 1.0) != t => |_| 0.0,
+            MIRROR if turn(t) > 1.0 => |extent| -extent,
+            _ => continue,
+        };
+        axes[axis] = kept(axes[axis]);
+        axes[axis + 2] = kept(axes[axis + 2]);
     }
     axes
+}
+
+/// A place in a canvas and its mirrored copy, which follows from 1 to 2.
+fn turn(t: f32) -> f32 {
+    t - 2.0 * (t * 0.5).floor()
 }
 
 fn axis(t: f32, mode: u32) -> f32 {
     match mode {
         REPEAT => t - t.floor(),
         MIRROR => {
-            let turn = t - 2.0 * (t * 0.5).floor();
+            let turn = turn(t);
             if turn > 1.0 { 2.0 - turn } else { turn }
         }
         // Clamped in any mode.
@@ -82,8 +91,9 @@ fn axis_share(t: f32, extent: f32, mode: u32) -> f32 {
     } else if extent < LEAST_EXTENT {
         if (0.0..=1.0).contains(&t) { 1.0 } else { 0.0 }
     } else {
-        let inside = (t + 0.5 * extent).min(1.0) - (t - 0.5 * extent).max(0.0);
-        clamp(inside / extent, 0.0, 1.0)
+        // What lies without, so that nothing is lost to rounding where all lies within.
+        let outside = (0.5 * extent - t).max(0.0) + (t + 0.5 * extent - 1.0).max(0.0);
+        clamp(1.0 - outside / extent, 0.0, 1.0)
     }
 }
 

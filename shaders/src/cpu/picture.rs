@@ -14,8 +14,8 @@ use super::{Lookup, Sampler, groups, mapping, paint, paper};
 use crate::layout::rows::SAMPLES;
 use crate::layout::{cell, cmd, filter};
 
-/// Farther than any place in cells.
-const FAR: f32 = 1e30;
+/// Farther than any place in cells, and still finite by the number of samples a cell.
+const FAR: f32 = 1e24;
 /// By how much of its side the list of a cell goes beyond it.
 const OVERLAP: f32 = cell::OVERLAP as f32 / 16.0;
 /// How wide cells are at least, in what the samples of a footprint may be away from its centre.

@@ -121,6 +121,38 @@ fn beyond_a_side_a_footprint_shows_the_side() {
     assert_ne!(below, sampler.sample([0.5, 1.0], [0.0; 4]));
 }
 
+/// What is mirrored is so with its footprint: one that leans leans the other way.
+#[test]
+fn a_mirrored_footprint_leans_the_other_way() {
+    use crate::builder::{Cover, set_list};
+    let mut file = row_of(2);
+    set_list(&mut file, 0, &[(Cover::Edge(2.0), [1.0; 4])]);
+    set_solid(&mut file, 1, [1.0; 4]);
+    let options = PackOptions {
+        address: Some([AddressMode::Mirror; 2]),
+        filter: FilterMode::Footprint,
+        ..PackOptions::default()
+    };
+    let packed = pack(&file, &options);
+    let sampler = Sampler::new(&packed);
+    let axes = [0.1, 0.3, 0.05, -0.02];
+    let [left, up, both] = [
+        [-axes[0], axes[1], -axes[2], axes[3]],
+        [axes[0], -axes[1], axes[2], -axes[3]],
+        axes.map(|extent| -extent),
+    ];
+    for (uv, folded, axes_there) in [
+        ([0.25, 0.5], [0.25, 0.5], axes),
+        ([-0.25, 0.5], [0.25, 0.5], left),
+        ([0.25, 1.5], [0.25, 0.5], up),
+        ([1.75, -0.5], [0.25, 0.5], both),
+        ([2.25, -1.5], [0.25, 0.5], axes),
+    ] {
+        let found = sampler.sample(uv, axes);
+        assert_eq!(found, sampler.sample(folded, axes_there), "at {uv:?}");
+    }
+}
+
 /// In border mode a footprint sees nothing beyond a side, so the side is smooth; a point is on one side.
 #[test]
 fn a_footprint_smooths_the_side_of_a_border() {
@@ -143,6 +175,9 @@ fn a_footprint_smooths_the_side_of_a_border() {
         (0.5, [0.1, 0.0, 0.0, 0.1], 1.0),
         (1.04, [0.1, 0.0, 0.0, 0.1], 0.1),
         (0.5, [2.0, 0.0, 0.0, 0.1], 0.5),
+        // Extents of few units in the last place, and of less than one, lose nothing.
+        (0.598_138_9, [5.9e-7, 0.0, 3.0e-7, 0.0], 1.0),
+        (0.6, [1e-9, 0.0, 0.0, 1e-9], 1.0),
         (1.0, [0.0; 4], 1.0),
         (1.001, [0.0; 4], 0.0),
     ];

@@ -43,11 +43,14 @@ fn vtex_mapping_axis(t: f32, mode: u32) -> f32 {
 }
 
 // Axes in uv, after the matrix. In clamp mode, beyond a side of the canvas all of a footprint shows what
-// the side does.
+// the side does. In mirror mode, what is mirrored is so with its footprint.
 fn vtex_mapping_kept(vt: VtexTexture, uv: vec2f, axes: vec4f) -> vec4f {
     let clamps = vt.address == vec2u(VTEX_ADDRESS_CLAMP);
     let placed = select(uv, clamp(uv, vec2f(0.0), vec2f(1.0)), clamps);
-    return select(vec4f(0.0), axes, (placed == uv).xyxy);
+    let turn = uv - 2.0 * floor(uv * 0.5);
+    let turned = select(vec2f(1.0), vec2f(-1.0), turn > vec2f(1.0));
+    let sign = select(vec2f(1.0), turned, vt.address == vec2u(VTEX_ADDRESS_MIRROR));
+    return select(vec4f(0.0), sign.xyxy * axes, (placed == uv).xyxy);
 }
 
 fn vtex_mapping_address(vt: VtexTexture, uv: vec2f) -> vec2f {
@@ -59,8 +62,9 @@ fn vtex_mapping_address(vt: VtexTexture, uv: vec2f) -> vec2f {
 
 // How much of `extent` about `t` lies within 0 and 1 in border mode.
 fn vtex_mapping_axis_share(t: f32, extent: f32, mode: u32) -> f32 {
-    let inside = min(t + 0.5 * extent, 1.0) - max(t - 0.5 * extent, 0.0);
-    let share = clamp(inside / max(extent, VTEX_MAPPING_LEAST_EXTENT), 0.0, 1.0);
+    // What lies without, so that nothing is lost to rounding where all lies within.
+    let outside = max(0.5 * extent - t, 0.0) + max(t + 0.5 * extent - 1.0, 0.0);
+    let share = clamp(1.0 - outside / max(extent, VTEX_MAPPING_LEAST_EXTENT), 0.0, 1.0);
     let placed = select(0.0, 1.0, t >= 0.0 && t <= 1.0);
     let bordered = select(share, placed, extent < VTEX_MAPPING_LEAST_EXTENT);
     return select(1.0, bordered, mode == VTEX_ADDRESS_BORDER);

@@ -13,8 +13,8 @@
 // the packed words, or in a square around it that shows the same, or those beyond one side of the
 // canvas, which do not count. The first pass is that of the lookup's own place, and mostly the only one.
 
-// Farther than any place in cells.
-const VTEX_PICTURE_FAR: f32 = 1e30;
+// Farther than any place in cells, and still finite by the number of samples a cell.
+const VTEX_PICTURE_FAR: f32 = 1e24;
 // By how much of its side the list of a cell goes beyond it.
 const VTEX_PICTURE_OVERLAP: f32 = f32(VTEX_CELL_OVERLAP) / 16.0;
 // How wide cells are at least, in what the samples of a footprint may be away from its centre.
