@@ -116,7 +116,7 @@ fn check_bindings(text: &str, expected: &[(u32, u32, &str)]) {
     let named = expected
         .iter()
         .map(|&(group, binding, name)| (group, binding, name.to_owned()));
-    assert_eq!(bindings(text), named.collect::<Vec<_>>());
+    assert_eq!(bindings(text), named.collect::<Vec<_>>(), "{expected:?}");
 }
 
 #[test]

@@ -39,26 +39,30 @@ fn fill(gpu: &Gpu, set: &mut TextureSet, told: &[&str]) {
     for word in told {
         assert!(message.contains(word), "{word}: {message}");
     }
-    assert!(handles.len() > 1);
-    assert_eq!(set.len(), handles.len());
+    assert!(handles.len() > 1, "some fit");
+    assert_eq!(set.len(), handles.len(), "those that fit");
     let (generation, bytes) = (set.generation(), set.bytes());
-    assert!(set.add(&file(1), &options).is_err());
+    assert!(set.add(&file(1), &options).is_err(), "again");
     let pair = [file(4), file(1)];
     assert!(
         set.add_all(pair.iter().map(|file| (file, &options)))
             .is_err(),
         "all of them or none"
     );
-    assert_eq!((set.generation(), set.bytes()), (generation, bytes));
+    assert_eq!(
+        (set.generation(), set.bytes()),
+        (generation, bytes),
+        "nothing changes"
+    );
     let shader = Shader::new(gpu, set);
     let queries = random_queries(3, 100, 0.2);
     let colors =
         |set: &TextureSet, handle| shader.run(gpu, set.bind_group(), &of(handle, &queries));
     let first = colors(set, handles[0]);
-    assert!(first.iter().flatten().any(|&channel| channel > 0.0));
-    assert!(set.remove(handles[1]));
+    assert!(first.iter().flatten().any(|&c| c > 0.0), "it shows");
+    assert!(set.remove(handles[1]), "it was there");
     let again = set.add(&file(1), &options).unwrap();
-    assert!(colors(set, handles[0]) == first);
+    assert!(colors(set, handles[0]) == first, "the others stay");
     // The same file in another room: places on the page are rounded otherwise.
     let second = colors(set, again);
     let differences = first.iter().flatten().zip(second.iter().flatten());

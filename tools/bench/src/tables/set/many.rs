@@ -8,7 +8,7 @@ use vtex_runtime::{TextureHandle, TextureQuery};
 /// Part of a canvas' side that a run of lookups crosses.
 const WINDOW: f32 = 1.0 / 8.0;
 
-/// The bytes of `count` files, no two of them equal: those there are, then the same in other colours.
+/// The bytes of `count` files: those there are, then the same with other single colours.
 pub(super) fn changed(files: &[(String, VtexFile)], count: usize) -> Result<Vec<Vec<u8>>> {
     anyhow::ensure!(!files.is_empty(), "no files to measure with");
     let change = |index: usize| {
@@ -17,7 +17,7 @@ pub(super) fn changed(files: &[(String, VtexFile)], count: usize) -> Result<Vec<
         // By so many codes, a channel after the other.
         let step = index / files.len();
         for paint in &mut file.paints {
-            if paint.color.iter().all(|channel| channel.is_finite()) {
+            if step > 0 && !paint.is_gradient() {
                 let channel = &mut paint.color[step % 3];
                 *channel = (*channel + step as f32 / 255.0).fract();
             }

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 use anyhow::{Context as _, Result};
 use vtex_format::{Limits, VtexFile};
 use vtex_runtime::{
-    FilterMode, GpuVtex, LoadOptions, LookupQueue, QueueBuffers, QueueSampler, TextureHandle,
-    TextureQuery, TextureSet, TextureSetOptions, parse_all,
+    FilterMode, GpuVtex, LoadOptions, LookupQueue, QueueBuffers, QueueSampler, RuntimeError,
+    TextureHandle, TextureQuery, TextureSet, TextureSetOptions, parse_all,
 };
 
 use super::compared;
@@ -41,10 +41,18 @@ pub(crate) fn set_tables(
     files: &[(String, VtexFile)],
     effort: Effort,
 ) -> Result<Vec<Table>> {
-    let subjects: Vec<Subject> = COUNTS
-        .iter()
-        .map(|&count| Subject::new(device, changed(files, count)?, effort.gpu_lookups))
-        .collect::<Result<_>>()?;
+    let mut subjects = Vec::new();
+    let mut refused = None;
+    for count in COUNTS {
+        match Subject::new(device, changed(files, count)?, effort.gpu_lookups) {
+            Ok(subject) => subjects.push(subject),
+            Err(error) if is_limit(&error) => {
+                refused = Some(format!("{count} of these textures are refused: {error}."));
+                break;
+            }
+            Err(error) => return Err(error),
+        }
+    }
     let columns = [
         "Textures",
         "files, KB",
@@ -70,6 +78,9 @@ pub(crate) fn set_tables(
          of {RUN} within an eighth of a canvas, or for each anew. Ratios are to one texture.",
         effort.gpu_lookups
     ));
+    if let Some(refused) = refused {
+        table.note(refused);
+    }
     let loads: Vec<[Spread; 2]> = subjects
         .iter()
         .map(|subject| subject.loads(device, effort.rounds))
@@ -97,6 +108,11 @@ pub(crate) fn set_tables(
         table.row(row);
     }
     Ok(vec![table, handle_table(device, files, effort)?])
+}
+
+/// Whether textures do not fit the device: a figure too.
+fn is_limit(error: &anyhow::Error) -> bool {
+    matches!(error.downcast_ref(), Some(RuntimeError::Limit(_)))
 }
 
 impl Subject {
