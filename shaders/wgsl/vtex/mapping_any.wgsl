@@ -26,13 +26,18 @@ fn vtex_mapping_axes(vt: VtexTexture, axes: vec4f) -> vec4f {
     return vec4f(vtex_mapping_linear(vt, axes.xy), vtex_mapping_linear(vt, axes.zw));
 }
 
+// A place in a canvas and its mirrored copy, which follows from 1 to 2.
+fn vtex_mapping_turn(t: f32) -> f32 {
+    return t - 2.0 * floor(t * 0.5);
+}
+
 fn vtex_mapping_axis(t: f32, mode: u32) -> f32 {
     switch mode {
         case VTEX_ADDRESS_REPEAT: {
             return t - floor(t);
         }
         case VTEX_ADDRESS_MIRROR: {
-            let turn = t - 2.0 * floor(t * 0.5);
+            let turn = vtex_mapping_turn(t);
             return select(turn, 2.0 - turn, turn > 1.0);
         }
         // Clamped in any mode.
@@ -47,7 +52,7 @@ fn vtex_mapping_axis(t: f32, mode: u32) -> f32 {
 fn vtex_mapping_kept(vt: VtexTexture, uv: vec2f, axes: vec4f) -> vec4f {
     let clamps = vt.address == vec2u(VTEX_ADDRESS_CLAMP);
     let placed = select(uv, clamp(uv, vec2f(0.0), vec2f(1.0)), clamps);
-    let turn = uv - 2.0 * floor(uv * 0.5);
+    let turn = vec2f(vtex_mapping_turn(uv.x), vtex_mapping_turn(uv.y));
     let turned = select(vec2f(1.0), vec2f(-1.0), turn > vec2f(1.0));
     let sign = select(vec2f(1.0), turned, vt.address == vec2u(VTEX_ADDRESS_MIRROR));
     return select(vec4f(0.0), sign.xyxy * axes, (placed == uv).xyxy);
