@@ -102,6 +102,8 @@ pub(crate) fn look(svg: &[u8], fonts: Fonts, gpu: Option<&Gpu>) -> Result<Found,
     };
     let config = BakeConfig {
         mip0_size: MIP0_SIZE,
+        // Its warning is of bytes, not of pictures.
+        gpu_budget_bytes: u64::MAX,
         ..BakeConfig::default()
     };
     let file = bake(svg, &config, &resources).map_err(|error| error.to_string())?;

@@ -122,12 +122,11 @@ mod tests {
         let svg = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 100'>\
              <filter id='f'><feOffset/></filter>\
              <g id='two' filter='url(#f)'><path d='M10 10H30V30H10Z M70 70H90V90H70Z'/></g></svg>";
-        let file = bake(
-            svg.as_bytes(),
-            &BakeConfig::default(),
-            &Resources::default(),
-        )
-        .unwrap();
+        let config = BakeConfig {
+            gpu_budget_bytes: u64::MAX,
+            ..BakeConfig::default()
+        };
+        let file = bake(svg.as_bytes(), &config, &Resources::default()).unwrap();
         let warnings = &file.provenance.as_ref().unwrap().warnings;
         assert_eq!((warnings.len(), warnings[0].element.as_str()), (1, "two"));
         // Two squares, not the box around both.
