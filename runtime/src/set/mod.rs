@@ -9,6 +9,7 @@ mod words;
 use std::fmt;
 
 use vtex_format::{Grid, Meta, SpecKey, VtexFile};
+use vtex_shaders::cores::map_all;
 use vtex_shaders::layout::FilterMode;
 use vtex_shaders::set::{TextureHandle, every_feature, set_fragment, set_key};
 use vtex_shaders::{BindingSlot, PackOptions, Packed, pack, pack_in_pages, spec_key};
@@ -17,7 +18,6 @@ use wgpu::{BindGroup, BindGroupLayout, Buffer, Device, Queue, Sampler, TextureVi
 use crate::device::checked;
 use crate::load::texture_layout;
 use crate::{LoadOptions, RuntimeError};
-use vtex_shaders::cores::map_all;
 
 use memory::{Change, Memory};
 use pages::PageLimits;
