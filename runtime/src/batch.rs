@@ -7,7 +7,10 @@ use wgpu::{
     ShaderStages,
 };
 
-use crate::device::{Uploaded, checked, compiled, empty_buffer, filled_buffer, read_back};
+use crate::device::{
+    READ, Uploaded, WRITE, buffer_entry, checked, compiled, empty_buffer, filled_buffer, kernel,
+    read_back,
+};
 use crate::{LoadOptions, RuntimeError};
 
 /// Whose shader is compiled. The key is the truth: text made from it is what a file means.
@@ -267,38 +270,14 @@ async fn stored_kernel(
 
 /// Compiles a kernel of the batch interface: group 0 with words, texels, sampler, queries, colours.
 fn pipeline(device: &Device, source: ShaderSource<'_>) -> ComputePipeline {
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("vtex batch"),
-        source,
-    });
+    let label = "vtex batch";
     // Written out, not derived from the shader: a derived layout leaves out what a kernel does not
     // read, and a kernel from a file may read less than we bind.
-    let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
     let [words, texels, sampler] = Uploaded::layout_entries(0, ShaderStages::COMPUTE);
+    let [input, output] = [buffer_entry(3, READ), buffer_entry(4, WRITE)];
     let group = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("vtex batch"),
-        entries: &[words, texels, sampler, entry(3, true), entry(4, false)],
+        label: Some(label),
+        entries: &[words, texels, sampler, input, output],
     });
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("vtex batch"),
-        bind_group_layouts: &[Some(&group)],
-        immediate_size: 0,
-    });
-    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some("vtex batch"),
-        layout: Some(&layout),
-        module: &module,
-        entry_point: Some("vtex_batch"),
-        compilation_options: wgpu::PipelineCompilationOptions::default(),
-        cache: None,
-    })
+    kernel(device, label, source, "vtex_batch", &[&group])
 }

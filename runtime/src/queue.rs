@@ -4,10 +4,10 @@ use vtex_format::SpecKey;
 use vtex_shaders::set::{TextureQuery, queue_arguments_kernel, queue_kernel};
 use wgpu::{
     BindGroup, BindGroupEntry, BindGroupLayout, Buffer, BufferBinding, BufferUsages,
-    CommandEncoder, ComputePipeline, Device, ShaderStages,
+    CommandEncoder, ComputePipeline, Device,
 };
 
-use crate::device::{checked, compiled, empty_buffer};
+use crate::device::{READ, WRITE, buffers_layout, checked, compiled, empty_buffer, kernel};
 use crate::{RuntimeError, TextureSet};
 
 /// Bytes of the arguments of a dispatch.
@@ -83,10 +83,11 @@ impl QueueSampler {
     pub async fn new_async(device: &Device, set: &TextureSet) -> Result<Self, RuntimeError> {
         let key = *set.key();
         compiled(device, "queue kernels", || {
-            let queue_layout = buffers_layout(device, "vtex queue", &[true, true, false]);
-            let arguments_layout = buffers_layout(device, "vtex queue arguments", &[false]);
+            let queue_layout = buffers_layout(device, "vtex queue", &[READ, READ, WRITE]);
+            let arguments_layout = buffers_layout(device, "vtex queue arguments", &[WRITE]);
             let pipeline = |text: String, entry: &str, second: &BindGroupLayout| {
-                pipeline(device, text, entry, [&queue_layout, second])
+                let source = wgpu::ShaderSource::Wgsl(text.into());
+                kernel(device, entry, source, entry, &[&queue_layout, second])
             };
             Ok(Self {
                 arguments: pipeline(
@@ -204,50 +205,4 @@ impl QueueSampler {
         pass.dispatch_workgroups_indirect(&queue.arguments, 0);
         Ok(())
     }
-}
-
-/// Storage buffers at successive bindings, each only read or not.
-fn buffers_layout(device: &Device, label: &str, read_only: &[bool]) -> BindGroupLayout {
-    let entries: Vec<wgpu::BindGroupLayoutEntry> = (0..)
-        .zip(read_only)
-        .map(|(binding, &read_only)| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only },
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
-        })
-        .collect();
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some(label),
-        entries: &entries,
-    })
-}
-
-fn pipeline(
-    device: &Device,
-    text: String,
-    entry: &str,
-    groups: [&BindGroupLayout; 2],
-) -> ComputePipeline {
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(entry),
-        source: wgpu::ShaderSource::Wgsl(text.into()),
-    });
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some(entry),
-        bind_group_layouts: &groups.map(Some),
-        immediate_size: 0,
-    });
-    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some(entry),
-        layout: Some(&layout),
-        module: &module,
-        entry_point: Some(entry),
-        compilation_options: wgpu::PipelineCompilationOptions::default(),
-        cache: None,
-    })
 }

@@ -57,6 +57,13 @@ fn decoded_with(stored: &[u8], dictionary: &[u8], length: usize) -> Option<[Opti
     }))
 }
 
+/// That both decoders found what a whole frame holds.
+fn check(decoded: Option<[Option<Vec<u8>>; 2]>, raw: &[u8]) {
+    let [c, rust] = decoded.expect("a whole frame");
+    assert!(c.is_some_and(|c| c == raw), "the C library differs");
+    assert!(rust.is_some_and(|rust| rust == raw), "ruzstd differs");
+}
+
 /// Dictionaries of more than one block, and content that is partly in them.
 #[test]
 fn both_decoders_unpack_frames_with_dictionaries() {
@@ -68,9 +75,7 @@ fn both_decoders_unpack_frames_with_dictionaries() {
         let level = u.int_in_range(1..=19)?;
         let mut compressor = Compressor::with_dictionary(level, &dictionary).unwrap();
         let frame = compressor.compress(&raw).unwrap();
-        let [c, rust] = decoded_with(&frame, &dictionary, raw.len()).expect("a whole frame");
-        assert!(c.is_some_and(|c| c == raw), "the C library differs");
-        assert!(rust.is_some_and(|rust| rust == raw), "ruzstd differs");
+        check(decoded_with(&frame, &dictionary, raw.len()), &raw);
         Ok(())
     })
     .size_min(4_000)
@@ -81,9 +86,7 @@ fn both_decoders_unpack_frames_with_dictionaries() {
 fn both_decoders_unpack_whole_frames() {
     arbtest::arbtest(|u| {
         let raw = content(u)?;
-        let [c, rust] = decoded(&frame(u, &raw)?, raw.len()).expect("a whole frame");
-        assert!(c.is_some_and(|c| c == raw), "the C library differs");
-        assert!(rust.is_some_and(|rust| rust == raw), "ruzstd differs");
+        check(decoded(&frame(u, &raw)?, raw.len()), &raw);
         Ok(())
     })
     .size_min(4_000)

@@ -2,11 +2,13 @@
 //! and waiting for what a device answers later.
 
 mod buffer;
+mod kernel;
 mod reply;
 mod scope;
 mod texels;
 
 pub(crate) use buffer::{empty_buffer, filled_buffer, read_back};
+pub(crate) use kernel::{READ, WRITE, buffer_entry, buffers_layout, kernel};
 #[cfg(all(feature = "blocking", not(target_arch = "wasm32")))]
 pub(crate) use reply::block_on;
 #[cfg(feature = "tracer")]

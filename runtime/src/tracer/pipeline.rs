@@ -7,13 +7,11 @@ use wgpu::{
 };
 
 use crate::RuntimeError;
-use crate::device::{Uploaded, compiled};
+use crate::device::{READ, Uploaded, WRITE, buffers_layout, compiled, kernel};
 
 use super::upload::SceneBuffers;
 
 const UNIFORM: BufferBindingType = BufferBindingType::Uniform;
-const READ: BufferBindingType = BufferBindingType::Storage { read_only: true };
-const WRITE: BufferBindingType = BufferBindingType::Storage { read_only: false };
 
 // Core WebGPU guarantees eight storage buffers a stage. `render` uses seven, so all textures of a
 // scene lie in one.
@@ -56,8 +54,8 @@ impl Pipelines {
         let context = vtex_shaders::scene_context(texture_features, TEXTURE_SLOT);
         let wgsl = linked("root/render", &context)?;
         compiled(device, "path tracer", || {
-            let scene_layout = layout(device, "vtex scene", SCENE_GROUP);
-            let film_layout = layout(device, "vtex film", FILM_GROUP);
+            let scene_layout = buffers_layout(device, "vtex scene", SCENE_GROUP);
+            let film_layout = buffers_layout(device, "vtex film", FILM_GROUP);
             let entries = Uploaded::layout_entries(TEXTURE_SLOT.binding, ShaderStages::COMPUTE);
             let texture_layout = layout_of(device, "vtex textures", &entries);
             let groups = [&scene_layout, &film_layout, &texture_layout];
@@ -81,7 +79,7 @@ impl QueryPipeline {
         // It reads triangles alone, so no evaluator of textures is linked.
         let wgsl = linked("root/intersect", &LinkContext::default())?;
         compiled(device, "ray query", || {
-            let query_layout = layout(device, "vtex queries", QUERY_GROUP);
+            let query_layout = buffers_layout(device, "vtex queries", QUERY_GROUP);
             let groups = [scene_layout, &query_layout];
             Ok(Self {
                 intersect: pipeline(device, &wgsl, "intersect", &groups),
@@ -112,25 +110,6 @@ impl Bindings {
             ),
         }
     }
-}
-
-/// A layout of whole buffers numbered from 0, for the compute stage.
-fn layout(device: &Device, label: &str, bindings: &[BufferBindingType]) -> BindGroupLayout {
-    let entries: Vec<BindGroupLayoutEntry> = (0..)
-        .zip(bindings)
-        .map(|(binding, &ty)| BindGroupLayoutEntry {
-            binding,
-            visibility: ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Buffer {
-                ty,
-                has_dynamic_offset: false,
-                // The sizes are in the shader already; wgpu compares at each dispatch.
-                min_binding_size: None,
-            },
-            count: None,
-        })
-        .collect();
-    layout_of(device, label, &entries)
 }
 
 fn layout_of(device: &Device, label: &str, entries: &[BindGroupLayoutEntry]) -> BindGroupLayout {
@@ -170,24 +149,8 @@ fn pipeline(
     entry_point: &str,
     groups: &[&BindGroupLayout],
 ) -> ComputePipeline {
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("vtex tracer"),
-        source: wgpu::ShaderSource::Wgsl(wgsl.into()),
-    });
-    let groups: Vec<Option<&BindGroupLayout>> = groups.iter().copied().map(Some).collect();
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("vtex tracer"),
-        bind_group_layouts: &groups,
-        immediate_size: 0,
-    });
-    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some(entry_point),
-        layout: Some(&layout),
-        module: &module,
-        entry_point: Some(entry_point),
-        compilation_options: wgpu::PipelineCompilationOptions::default(),
-        cache: None,
-    })
+    let source = wgpu::ShaderSource::Wgsl(wgsl.into());
+    kernel(device, "vtex tracer", source, entry_point, groups)
 }
 
 fn linked(root: &str, context: &LinkContext) -> Result<String, RuntimeError> {
