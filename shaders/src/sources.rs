@@ -67,6 +67,8 @@ sources! {
     "vtex/paper",
     "vtex/picture_point",
     "vtex/picture_rows",
+    "vtex/region_long",
+    "vtex/region_round",
     "vtex/resolved",
     "vtex/ring_none",
     "vtex/ring_outline",

@@ -113,6 +113,10 @@ fn slots(features: u32) -> LinkContext {
             pick(Features::FOOTPRINT, "samples_rows", "samples_point"),
         ),
         (
+            "region",
+            pick(Features::FOOTPRINT, "region_long", "region_round"),
+        ),
+        (
             "picture",
             pick(Features::FOOTPRINT, "picture_rows", "picture_point"),
         ),

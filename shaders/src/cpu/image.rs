@@ -1,6 +1,7 @@
 //! Twin of `vtex/image.wgsl`, and of `vtex/image_entry.wgsl`; here with what the sampler does there.
 
 use super::math::{clamp, to_f32, to_u32};
+use super::region::region;
 use super::{Lookup, Sampler};
 use crate::layout::image;
 
@@ -25,40 +26,6 @@ pub(super) struct Region {
     pub(super) places: u32,
     /// From one place to the next, in cells.
     pub(super) apart: [f32; 2],
-}
-
-impl Region {
-    /// `axes` are those of a footprint in cells. The region has the footprint's covariance, as long
-    /// as the longer principal axis is at most [`image::PLACES`] times the shorter one.
-    pub(super) fn new([ax, ay, bx, by]: [f32; 4], texels_per_cell: f32) -> Self {
-        let xx = ax * ax + bx * bx;
-        let xy = ax * ay + bx * by;
-        let yy = ay * ay + by * by;
-        let area = ax * by - ay * bx;
-        // Squares of the principal axes are eigenvalues. The shorter one follows from the area, as
-        // a difference would cancel.
-        let spread = ((xx - yy) * (xx - yy) + 4.0 * xy * xy).sqrt();
-        let long = 0.5 * (xx + yy + spread);
-        let most = to_f32(image::PLACES);
-        let narrow = area * (area / long.max(1e-30));
-        let short = narrow.max(long / (most * most)).max(1e-30);
-        // Up to an eighth longer than wide, a single place is as good.
-        let places = clamp(((long / short).sqrt() - 0.125).ceil(), 1.0, most);
-        let [x, y] = if xx >= yy {
-            [spread + (xx - yy), 2.0 * xy]
-        } else {
-            [2.0 * xy, spread + (yy - xx)]
-        };
-        // The variance of the places makes up for what that of one place lacks.
-        let lacking = (long - short).max(0.0) / (places * places - 1.0).max(1.0);
-        let factor = (lacking / (x * x + y * y).max(1e-30)).sqrt();
-        let texels = short * texels_per_cell * texels_per_cell;
-        Self {
-            lod: 0.5 * texels.max(0.25).log2(),
-            places: to_u32(places),
-            apart: [x * factor, y * factor],
-        }
-    }
 }
 
 /// One level of an image.
@@ -166,7 +133,7 @@ pub(super) fn entry(sampler: &Sampler<'_>, index: u32, uv: [f32; 2], lookup: &Lo
     let [width, height, last_level, _] = sampler.words(record.wrapping_add(image::SIZE));
     let texels = [width, height].map(f32::from_bits);
     let texels_per_cell = texels[0] / (size[0] * s.scale[0]);
-    let region = Region::new(lookup.axes, texels_per_cell);
+    let region = region(sampler, lookup.axes, texels_per_cell);
     let apart = [0, 1].map(|axis| region.apart[axis] / (s.scale[axis] * size[axis]));
     let image = (texels, last_level);
     filtered(sampler, record, image, &region, t, apart, [false; 2])

@@ -22,6 +22,7 @@ mod paint;
 mod paper;
 mod picture;
 pub(crate) mod plane;
+mod region;
 mod rows;
 mod sample;
 mod samples;

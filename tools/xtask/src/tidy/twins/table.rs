@@ -4,7 +4,6 @@
 pub(super) const OTHERWISE: &[(&str, &str, &str)] = &[
     ("edge.rs", "is_branch", "vtex_groups_is_branch"),
     ("edge.rs", "within", "vtex_msdf_covered"),
-    ("image.rs", "new", "vtex_image_region"),
     ("rows.rs", "new", "vtex_rows_phase"),
     ("rows.rs", "new", "vtex_samples_of_rows"),
     ("sample.rs", "sample", "vtex_sample_at"),
