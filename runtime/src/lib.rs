@@ -1,7 +1,8 @@
 //! Loads `.vtex` vector textures into wgpu.
 //!
 //! On the caller's own [`wgpu::Device`] with the limits of core WebGPU:
-//! - [`TextureSet`]: any number of textures for one pipeline, added and removed at run time;
+//! - [`TextureSet`]: any number of textures for one pipeline, added and removed at run time, in one bind
+//!   group or, where they are more than it binds, in several;
 //! - [`GpuVtex`]: one texture alone;
 //! - [`QueueSampler`]: lookups in a set that other work on the GPU asks for, by indirect dispatch;
 //! - [`BatchSampler`]: arrays of lookups in, colours out;
@@ -54,7 +55,7 @@ pub use queue::{LookupQueue, QueueBuffers, QueueSampler};
 pub use scene::{
     Camera, Instance, MAX_LIGHTS, MAX_TRIANGLES, Material, Mesh, RectLight, Scene, Sky, Surface,
 };
-pub use set::{SetBytes, TextureSet, TextureSetOptions};
+pub use set::{PoolBindings, SetBytes, TextureSet, TextureSetOptions};
 #[cfg(feature = "tracer")]
 pub use tracer::{
     Background, Film, LightSampling, RayHit, RayQuery, ToneMap, TraceOptions, TraceStats, Tracer,

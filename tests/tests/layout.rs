@@ -6,7 +6,10 @@ use std::collections::BTreeMap;
 use naga::{Expression, Literal, Module, TypeInner};
 use vtex_format::{Features, SpecKey};
 use vtex_shaders::layout::{BATCH_QUERY, CONSTANTS, RecordLayout, rows};
-use vtex_shaders::set::{self, TEXTURE_QUERY, queue_arguments_kernel, queue_kernel, set_fragment};
+use vtex_shaders::set::{
+    self, QUEUE_PART, TEXTURE_QUERY, queue_arguments_kernel, queue_kernel, queue_order_kernels,
+    queue_pool_kernel, set_fragment,
+};
 use vtex_shaders::{BindingSlot, batch_kernel, scene_evaluator};
 
 fn key(features: u32) -> SpecKey {
@@ -94,6 +97,9 @@ fn sets_have_the_constants_and_records_of_rust() {
         let module = naga::front::wgsl::parse_str(&queue_kernel(features)).expect("WGSL");
         check_constants(&module, features, "queue", set::CONSTANTS);
         check_record(&module, &TEXTURE_QUERY);
+        let module = naga::front::wgsl::parse_str(&queue_pool_kernel(features)).expect("WGSL");
+        check_constants(&module, features, "part of a queue", set::CONSTANTS);
+        check_record(&module, &QUEUE_PART);
     }
 }
 
@@ -146,5 +152,16 @@ fn bindings_are_where_they_are_said_to_be() {
     check_bindings(
         &queue_arguments_kernel(),
         &[&queue[..], &arguments].concat(),
+    );
+    let order = [
+        (1, 0, "vtex_queue_tallies"),
+        (1, 1, "vtex_queue_parts"),
+        (1, 2, "vtex_queue_order"),
+    ];
+    check_bindings(&queue_order_kernels(), &[&queue[..], &order].concat());
+    let ordered = [(2, 0, "vtex_queue_parts"), (2, 1, "vtex_queue_order")];
+    check_bindings(
+        &queue_pool_kernel(Features::ALL),
+        &[&queue[..], &set, &ordered].concat(),
     );
 }

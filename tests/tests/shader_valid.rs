@@ -5,7 +5,9 @@ use std::io::Write as _;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use rayon::prelude::*;
 use vtex_format::{Features, SpecKey};
-use vtex_shaders::set::{queue_arguments_kernel, queue_kernel};
+use vtex_shaders::set::{
+    queue_arguments_kernel, queue_kernel, queue_order_kernels, queue_pool_kernel,
+};
 use vtex_shaders::{BindingSlot, batch_kernel, fragment, scene_evaluator, shader_blob, spirv};
 use vtex_tests::variants::variants;
 
@@ -69,10 +71,13 @@ fn fragments_and_scenes_live_in_a_shader_of_another() {
 #[test]
 fn queues_of_sets_compile() {
     spirv(&queue_arguments_kernel()).unwrap();
+    spirv(&queue_order_kernels()).unwrap();
     let variants = variants();
     variants.par_iter().for_each(|variant| {
         let features = variant.features;
-        spirv(&queue_kernel(features)).unwrap_or_else(|error| panic!("{features:#b}: {error}"));
+        for text in [queue_kernel(features), queue_pool_kernel(features)] {
+            spirv(&text).unwrap_or_else(|error| panic!("{features:#b}: {error}"));
+        }
     });
     report("queues", variants.len());
 }

@@ -1,10 +1,8 @@
-//! The table of a set: which texture has which handle.
+//! The table of a pool: which texture has which handle.
 
 use std::collections::VecDeque;
 
 use vtex_shaders::set::{MAX_GENERATION, TextureHandle, table};
-
-use crate::RuntimeError;
 
 /// Entries of the smallest table: 512 bytes.
 const FEWEST_ENTRIES: u32 = 64;
@@ -12,6 +10,7 @@ const FEWEST_ENTRIES: u32 = 64;
 /// What the entries of the table hold.
 #[derive(Clone, Debug)]
 pub(super) struct Handles<T> {
+    pool: u32,
     entries: Vec<Entry<T>>,
     /// Entries without a texture that can still have one, the one that is free for longest first.
     free: VecDeque<u32>,
@@ -24,17 +23,21 @@ struct Entry<T> {
     texture: Option<T>,
 }
 
-impl<T> Default for Handles<T> {
-    fn default() -> Self {
+impl<T> Handles<T> {
+    pub(super) fn of_pool(pool: u32) -> Self {
         Self {
+            pool,
             entries: Vec::new(),
             free: VecDeque::new(),
         }
     }
-}
 
-impl<T> Handles<T> {
-    pub(super) fn insert(&mut self, texture: T) -> Result<TextureHandle, RuntimeError> {
+    pub(super) fn pool(&self) -> u32 {
+        self.pool
+    }
+
+    /// Gives the texture a handle; none where the table is full.
+    pub(super) fn insert(&mut self, texture: T) -> Option<TextureHandle> {
         let slot = match self.free.pop_front() {
             Some(slot) => slot,
             None => self.push()?,
@@ -42,23 +45,23 @@ impl<T> Handles<T> {
         let entry = &mut self.entries[slot as usize];
         entry.generation += 1;
         entry.texture = Some(texture);
-        Ok(TextureHandle::new(slot, entry.generation))
+        Some(TextureHandle::new(self.pool, slot, entry.generation))
     }
 
-    fn push(&mut self) -> Result<u32, RuntimeError> {
-        let slot = u32::try_from(self.entries.len());
-        let slot = slot.ok().filter(|&slot| slot < table::SLOT_MASK);
-        let slot = slot.ok_or_else(|| {
-            RuntimeError::Limit(format!(
-                "a set has handles for {} textures: remove some, or make a second set",
-                table::SLOT_MASK
-            ))
-        })?;
-        self.entries.push(Entry {
-            generation: 0,
-            texture: None,
-        });
-        Ok(slot)
+    fn push(&mut self) -> Option<u32> {
+        let slot = u32::try_from(self.entries.len()).ok()?;
+        (slot <= table::SLOT_MASK).then(|| {
+            self.entries.push(Entry {
+                generation: 0,
+                texture: None,
+            });
+            slot
+        })
+    }
+
+    /// How many more textures it can have.
+    pub(super) fn room(&self) -> usize {
+        table::SLOT_MASK as usize + 1 - self.entries.len() + self.free.len()
     }
 
     pub(super) fn remove(&mut self, handle: TextureHandle) -> Option<T> {
@@ -73,14 +76,14 @@ impl<T> Handles<T> {
 
     pub(super) fn get(&self, handle: TextureHandle) -> Option<&T> {
         let entry = self.entries.get(handle.slot() as usize)?;
-        let is_current = TextureHandle::new(handle.slot(), entry.generation) == handle;
+        let is_current = TextureHandle::new(self.pool, handle.slot(), entry.generation) == handle;
         entry.texture.as_ref().filter(|_| is_current)
     }
 
     /// All textures, with their handles.
     pub(super) fn iter(&self) -> impl Iterator<Item = (TextureHandle, &T)> {
         (0..).zip(&self.entries).filter_map(|(slot, entry)| {
-            let handle = TextureHandle::new(slot, entry.generation);
+            let handle = TextureHandle::new(self.pool, slot, entry.generation);
             Some((handle, entry.texture.as_ref()?))
         })
     }
@@ -93,9 +96,10 @@ impl<T> Handles<T> {
         self.iter().count()
     }
 
-    /// How many entries the table on the device is to have: a power of two.
-    pub(super) fn capacity(&self) -> u32 {
-        let entries = u32::try_from(self.entries.len()).unwrap_or(u32::MAX);
+    /// How many entries the table on the device is to have with so many more textures: a power of two.
+    pub(super) fn capacity_with(&self, more: usize) -> u32 {
+        let entries = self.entries.len() + more.saturating_sub(self.free.len());
+        let entries = u32::try_from(entries).unwrap_or(u32::MAX);
         entries.max(FEWEST_ENTRIES).next_power_of_two()
     }
 }
@@ -106,10 +110,11 @@ mod tests {
 
     #[test]
     fn a_handle_is_given_once() {
-        let mut handles = Handles::default();
+        let mut handles = Handles::of_pool(3);
         let mut given = std::collections::BTreeSet::new();
         for round in 0..3 * MAX_GENERATION {
             let handle = handles.insert(round).unwrap();
+            assert_eq!(handle.pool(), 3);
             assert!(given.insert(handle), "{handle:?}");
             assert_eq!(handles.get(handle), Some(&round));
             assert_eq!(handles.remove(handle), Some(round));
@@ -117,18 +122,24 @@ mod tests {
         }
         assert_eq!(handles.entries.len(), 3, "an entry is used until its end");
         assert!(handles.get(TextureHandle::NONE).is_none());
+        let handle = handles.insert(0).unwrap();
+        let elsewhere = TextureHandle::from_bits(handle.to_bits() ^ 1 << table::POOL_SHIFT);
+        assert!(handles.get(elsewhere).is_none(), "of another pool");
     }
 
     #[test]
-    fn handles_end_with_an_error() {
-        let mut handles = Handles::default();
-        for _ in 0..table::SLOT_MASK {
+    fn a_table_ends() {
+        let mut handles = Handles::of_pool(0);
+        let most = table::SLOT_MASK as usize + 1;
+        assert_eq!(handles.room(), most);
+        for _ in 0..most {
             handles.insert(()).unwrap();
         }
-        assert!(matches!(
-            handles.insert(()),
-            Err(RuntimeError::Limit(message)) if message.contains("second set")
-        ));
-        assert_eq!(handles.capacity(), table::SLOT_MASK + 1);
+        assert_eq!((handles.room(), handles.insert(())), (0, None));
+        assert_eq!(handles.capacity_with(0), table::SLOT_MASK + 1);
+        let (first, ()) = handles.iter().next().unwrap();
+        handles.remove(first).unwrap();
+        assert_eq!(handles.room(), 1);
+        assert_eq!(handles.capacity_with(1), table::SLOT_MASK + 1);
     }
 }

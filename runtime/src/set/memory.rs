@@ -1,19 +1,18 @@
-//! A set's buffer and pages on the device.
+//! A pool's buffer and pages on the device.
 
 use vtex_shaders::set::{TextureHandle, table};
 use vtex_shaders::{Packed, TexelPages};
 use wgpu::{
     BindGroup, BindGroupLayout, Buffer, BufferUsages, CommandEncoder, Device, Extent3d, Origin3d,
-    Queue, Texture, TextureView,
+    Queue, Sampler, Texture, TextureView,
 };
 
-use super::pages::MAX_PAGES;
 use super::space::{Member, Move, Plan, Space};
 use super::words::GROUP_BYTES;
 use crate::RuntimeError;
-use crate::device::{Uploaded, array_view, empty_buffer, page_array, texel_sampler};
+use crate::device::{Uploaded, array_view, empty_buffer, page_array};
 
-/// What a set binds.
+/// What a pool binds.
 #[derive(Clone, Debug)]
 pub(super) struct Memory {
     pub(super) uploaded: Uploaded,
@@ -24,8 +23,16 @@ pub(super) struct Memory {
 pub(super) struct Change<'a> {
     pub(super) plan: &'a Plan,
     pub(super) textures: &'a [Packed],
-    /// The texture that shows nothing.
-    pub(super) nothing: &'a [u32],
+    pub(super) fixed: &'a Fixed,
+}
+
+/// What all pools of a set have in common.
+#[derive(Clone, Debug)]
+pub(super) struct Fixed {
+    pub(super) layout: BindGroupLayout,
+    pub(super) sampler: Sampler,
+    /// The words of the texture that shows nothing.
+    pub(super) nothing: Vec<u32>,
 }
 
 impl Memory {
@@ -35,21 +42,17 @@ impl Memory {
         before: Option<&Self>,
         device: &Device,
         queue: &Queue,
-        layout: &BindGroupLayout,
         change: &Change<'_>,
     ) -> Result<Self, RuntimeError> {
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let uploaded = Uploaded {
             words: words(before, device, &mut encoder, change.plan)?,
             texels: texels(before, device, &mut encoder, &change.plan.space)?,
-            sampler: before.map_or_else(
-                || texel_sampler(device),
-                |before| before.uploaded.sampler.clone(),
-            ),
+            sampler: change.fixed.sampler.clone(),
         };
         let memory = match before {
             Some(before) if before.uploaded.binds_the_same(&uploaded) => before.clone(),
-            _ => Self::new(device, layout, uploaded),
+            _ => Self::new(device, &change.fixed.layout, uploaded),
         };
         // Before anything is written: writes come ahead of what is submitted next.
         queue.submit([encoder.finish()]);
@@ -57,9 +60,9 @@ impl Memory {
         Ok(memory)
     }
 
-    pub(super) fn new(device: &Device, layout: &BindGroupLayout, uploaded: Uploaded) -> Self {
+    fn new(device: &Device, layout: &BindGroupLayout, uploaded: Uploaded) -> Self {
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("vtex set"),
+            label: Some("vtex pool"),
             layout,
             entries: &uploaded.entries(0),
         });
@@ -74,9 +77,10 @@ impl Memory {
         } = change.plan;
         if moves.is_some() {
             self.write_words(queue, 0, &table_words(space));
-            self.write_words(queue, space.nothing_word(), change.nothing);
+            self.write_words(queue, space.nothing_word(), &change.fixed.nothing);
         }
-        for (&handle, texture) in added.iter().zip(change.textures) {
+        for &(index, handle) in added {
+            let texture = &change.textures[index];
             if let Some(member) = space.handles.get(handle) {
                 self.write_words(queue, 4 * space.first_group(member), &texture.words);
                 self.write_rooms(queue, member, &texture.texels);
@@ -135,7 +139,7 @@ fn words(
         (_, moves) => moves.iter().flatten(),
     };
     let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
-    let buffer = empty_buffer(device, "vtex set", plan.space.buffer_bytes(), usage)?;
+    let buffer = empty_buffer(device, "vtex pool", plan.space.buffer_bytes(), usage)?;
     for (&Move { from, to, groups }, before) in moves.zip(before.into_iter().cycle()) {
         let [from, to, size] = [from, to, groups].map(|at| GROUP_BYTES * u64::from(at));
         encoder.copy_buffer_to_buffer(&before.uploaded.words, from, &buffer, to, size);
@@ -152,23 +156,16 @@ fn texels(
 ) -> Result<TextureView, RuntimeError> {
     // One texel is bound where there is nothing to sample.
     let size = space.pages.size().map(|side| side.max(1));
-    let count = space.pages.count().max(1);
+    let count = space.pages.held().max(1);
     let Some(before) = before else {
         return Ok(array_view(&page_array(device, size, count)?));
     };
     let view = &before.uploaded.texels;
     let old = view.texture();
-    let held = old.depth_or_array_layers();
-    if [old.width(), old.height()] == size && count <= held {
+    if [old.width(), old.height(), old.depth_or_array_layers()] == [size[0], size[1], count] {
         return Ok(view.clone());
     }
-    let most = device.limits().max_texture_array_layers.min(MAX_PAGES);
-    let grown = if count > held {
-        (held + held / 2).min(most).max(count)
-    } else {
-        held
-    };
-    let texture = page_array(device, size, grown)?;
+    let texture = page_array(device, size, count)?;
     let [from, to] = [old, &texture].map(Texture::as_image_copy);
     encoder.copy_texture_to_texture(from, to, old.size());
     Ok(array_view(&texture))
@@ -179,6 +176,7 @@ fn table_words(space: &Space) -> Vec<u32> {
     let mut words = vec![0; space.nothing_word() as usize];
     words[table::COUNT as usize] = space.entries;
     words[table::NOTHING as usize] = space.nothing_word();
+    words[table::POOL as usize] = space.handles.pool();
     let entries = words[table::ENTRIES as usize..].chunks_exact_mut(table::ENTRY_WORDS as usize);
     for entry in entries {
         entry[1] = space.nothing_word();

@@ -2,7 +2,9 @@
 
 mod handles;
 mod memory;
+mod options;
 mod pages;
+mod pools;
 mod space;
 mod words;
 
@@ -10,54 +12,19 @@ use std::fmt;
 
 use vtex_format::{Grid, Meta, SpecKey, VtexFile};
 use vtex_shaders::cores::map_all;
-use vtex_shaders::layout::FilterMode;
-use vtex_shaders::set::{TextureHandle, every_feature, set_fragment, set_key};
+use vtex_shaders::set::{TextureHandle, set_fragment, set_key};
 use vtex_shaders::{BindingSlot, PackOptions, Packed, pack, pack_in_pages, spec_key};
 use wgpu::{BindGroup, BindGroupLayout, Buffer, Device, Queue, Sampler, TextureView};
 
-use crate::device::checked;
+use crate::device::{checked, texel_sampler};
 use crate::load::texture_layout;
 use crate::{LoadOptions, RuntimeError};
 
-use memory::{Change, Memory};
-use pages::PageLimits;
-use space::{Bounds, Plan, Space};
+use memory::{Change, Fixed, Memory};
+use pools::{Budget, PoolPlans};
+use space::{Plan, Space};
 
-/// What a caller may decide about a set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TextureSetOptions {
-    /// Features that the text has code for from the start, bits of [`vtex_format::Features`]. Those of
-    /// textures are added when they are. With [`TextureSetOptions::every_feature`] the text never changes.
-    pub features: u32,
-    /// Sides up to which a page of texels grows before there is a second, at most
-    /// [`MAX_PAGE_SIDE`](vtex_shaders::MAX_PAGE_SIDE). A level of an image that is larger makes the pages
-    /// larger, all of them. There are at most 64: 1 GiB of texels with the default, 2048.
-    pub page_side: u32,
-    /// How many threads pack textures, 0 for one a core. A browser has one.
-    pub threads: usize,
-}
-
-impl Default for TextureSetOptions {
-    fn default() -> Self {
-        Self {
-            features: 0,
-            page_side: 2048,
-            threads: 0,
-        }
-    }
-}
-
-impl TextureSetOptions {
-    /// A text that serves every texture in a filter mode, so that no texture ever asks for another. It is
-    /// larger, and slower where it takes more registers than the textures at hand need. A software driver,
-    /// which runs all code of a lookup, takes about ten times as long.
-    pub fn every_feature(filter: FilterMode) -> Self {
-        Self {
-            features: every_feature(filter),
-            ..Self::default()
-        }
-    }
-}
+pub use options::TextureSetOptions;
 
 /// Any number of vector textures for one pipeline: `vtex_sample(handle, uv, footprint)` in your own WGSL.
 ///
@@ -92,26 +59,50 @@ impl TextureSetOptions {
 ///   [`TextureSet::buffer`], [`TextureSet::texels`] and [`TextureSet::sampler`] in a group of your own. A
 ///   group from before still shows the textures that it had.
 ///
-/// **Memory.** The buffer doubles when it is too small, pages double up to
+/// **Pools.** A bind group binds a limited number of bytes, 128 MiB of words on core WebGPU: about 300
+/// drawings. A set that is to hold more has several *pools*, each with a buffer, pages and a bind group of
+/// its own: say how many it may have in [`TextureSetOptions::max_pools`]. Layout, text and pipeline stay one.
+/// A texture goes to the first pool with room for it, a new pool is opened where none has, and it stays
+/// there; [`TextureHandle::pool`] says which it is. Sort what you draw by that, and set
+/// [`TextureSet::bind_group_of`] it; with the group of another pool it shows nothing, and never another
+/// texture. A [`QueueSampler`](crate::QueueSampler) answers queues whose handles are of all pools.
+///
+/// **Memory.** A buffer doubles when it is too small, pages double up to
 /// [`TextureSetOptions::page_side`], and then their number grows by half; nothing shrinks. While they grow,
 /// the old and the new ones exist side by side. Room of a removed texture is used again. Textures that are
 /// added together lie more closely than one by one.
 ///
-/// **Limits.** The words of all textures lie in one storage binding (128 MiB on core WebGPU: about 300
-/// drawings), their texels
-/// on 64 pages of at most 8192 x 8192. What exceeds a limit is a [`RuntimeError::Limit`] that says which and
-/// what to do, and the set stays as it was.
+/// **Limits.** The words of a pool lie in one storage binding, its texels on 64 pages of at most 8192 x 8192,
+/// and it has at most 65,536 textures; a set has at most 32 pools. What exceeds a limit is a
+/// [`RuntimeError::Limit`] that says which and what to do, and the set stays as it was.
 pub struct TextureSet {
     device: Device,
     queue: Queue,
     options: TextureSetOptions,
     key: SpecKey,
-    space: Space,
-    /// The words of the texture that shows nothing.
-    nothing: Vec<u32>,
-    layout: BindGroupLayout,
-    memory: Memory,
+    fixed: Fixed,
+    /// One at least.
+    pools: Vec<Pool>,
     generation: u64,
+}
+
+/// Textures that are bound together.
+struct Pool {
+    space: Space,
+    memory: Memory,
+}
+
+/// What one pool of a set binds, for a group of your own.
+#[derive(Clone, Copy, Debug)]
+pub struct PoolBindings<'a> {
+    /// All of it, ready to be set.
+    pub bind_group: &'a BindGroup,
+    /// The words of its textures and the table of handles.
+    pub buffer: &'a Buffer,
+    /// The texels of its textures' images, as a 2D array.
+    pub texels: &'a TextureView,
+    /// The sampler of the texels.
+    pub sampler: &'a Sampler,
 }
 
 /// Bytes of a set on the device.
@@ -131,6 +122,7 @@ impl fmt::Debug for TextureSet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("TextureSet")
             .field("len", &self.len())
+            .field("pools", &self.pools.len())
             .field("key", &self.key)
             .field("generation", &self.generation)
             .field("bytes", &self.bytes())
@@ -161,18 +153,17 @@ impl TextureSet {
         queue: &Queue,
         options: &TextureSetOptions,
     ) -> Result<Self, RuntimeError> {
-        let nothing = nothing_words();
-        let space = Space::default();
-        let plan = space.with(&mut [], nothing.len(), &bounds(device, options))?;
-        let (layout, memory) = checked(device, "texture set", || {
-            let layout = texture_layout(device);
-            let change = Change {
-                plan: &plan,
-                textures: &[],
-                nothing: &nothing,
+        let (fixed, pools) = checked(device, "texture set", || {
+            let fixed = Fixed {
+                layout: texture_layout(device),
+                sampler: texel_sampler(device),
+                nothing: nothing_words(),
             };
-            let memory = Memory::changed(None, device, queue, &layout, &change)?;
-            Ok((layout, memory))
+            let bounds = options.bounds(device, fixed.nothing.len());
+            let (first, _) = Space::of_pool(0).with(&mut [], &[], &bounds);
+            let make = |plan| Pool::changed(None, (device, queue), plan, &[], &fixed);
+            let pools: Vec<Pool> = first.into_iter().map(make).collect::<Result<_, _>>()?;
+            Ok((fixed, pools))
         })
         .await?;
         Ok(Self {
@@ -180,10 +171,8 @@ impl TextureSet {
             queue: queue.clone(),
             options: *options,
             key: set_key(options.features),
-            space: plan.space,
-            nothing,
-            layout,
-            memory,
+            fixed,
+            pools,
             generation: 0,
         })
     }
@@ -232,8 +221,10 @@ impl TextureSet {
     /// end, the set stays as it was.
     ///
     /// # Errors
-    /// [`RuntimeError::Limit`] when the textures do not fit the device's limits or memory together with
-    /// those that the set has, or there are more than 1,048,575.
+    /// [`RuntimeError::Limit`] when the textures do not fit the limits of the device or of the options, or
+    /// the device's memory, together with those that the set has. What passes all pools' words or
+    /// [`TextureSetOptions::max_bytes`] is refused before the rest is packed, and before the device is asked
+    /// for anything.
     pub async fn add_all_async<'a>(
         &mut self,
         textures: impl IntoIterator<Item = (&'a VtexFile, &'a LoadOptions)>,
@@ -242,20 +233,24 @@ impl TextureSet {
             .into_iter()
             .map(|(file, options)| (file, &options.pack))
             .collect();
-        let bounds = bounds(&self.device, &self.options);
-        let side = bounds.pages.side;
-        let mut packed = map_all(&textures, self.options.threads, |&(file, options)| {
-            pack_in_pages(file, options, side)
+        let options = &self.options;
+        let bounds = options.bounds(&self.device, self.fixed.nothing.len());
+        let budget = Budget::new(options, &bounds, &self.bytes());
+        let mut packed = map_all(&textures, options.threads, |&(file, options)| {
+            budget.spend(|| pack_in_pages(file, options, bounds.pages.side))
         });
-        let plan = self.space.with(&mut packed, self.nothing.len(), &bounds)?;
-        let memory = checked(&self.device, "texture set", || {
-            let change = Change {
-                plan: &plan,
-                textures: &packed,
-                nothing: &self.nothing,
+        budget.check()?;
+        let spaces = self.pools.iter().map(|pool| &pool.space);
+        let PoolPlans { plans, handles } =
+            pools::plan(spaces, &mut packed, &bounds, options.most_pools())?;
+        let changed = checked(&self.device, "texture set", || {
+            let on = (&self.device, &self.queue);
+            let change = |plan: Plan| {
+                let before = self.pools.get(plan.space.handles.pool() as usize);
+                Pool::changed(before, on, plan, &packed, &self.fixed)
             };
-            let before = Some(&self.memory);
-            Memory::changed(before, &self.device, &self.queue, &self.layout, &change)
+            let pools = plans.into_iter().map(change);
+            pools.collect::<Result<Vec<Pool>, RuntimeError>>()
         })
         .await?;
         let needed = textures
@@ -264,41 +259,54 @@ impl TextureSet {
                 all | spec_key(file, options).features
             });
         self.key = set_key(needed);
-        Ok(self.commit(plan, memory))
+        self.commit(changed);
+        Ok(handles)
     }
 
-    fn commit(&mut self, plan: Plan, memory: Memory) -> Vec<TextureHandle> {
-        if memory.group != self.memory.group {
-            self.generation += 1;
+    fn commit(&mut self, changed: Vec<Pool>) {
+        for pool in changed {
+            let index = pool.space.handles.pool() as usize;
+            match self.pools.get_mut(index) {
+                Some(before) => {
+                    self.generation += u64::from(before.memory.group != pool.memory.group);
+                    *before = pool;
+                }
+                None => {
+                    self.generation += 1;
+                    self.pools.push(pool);
+                }
+            }
         }
-        self.memory = memory;
-        self.space = plan.space;
-        plan.added
     }
 
     /// Takes a texture out: from what is submitted from now on its handle shows nothing, and never another
     /// texture. Says whether the set had it.
     pub fn remove(&mut self, handle: TextureHandle) -> bool {
-        let had = self.space.remove(handle);
-        if had {
-            self.memory.write_entry(&self.queue, &self.space, handle);
-        }
-        had
+        let pool = self.pools.get_mut(handle.pool() as usize);
+        pool.is_some_and(|Pool { space, memory }| {
+            let had = space.remove(handle);
+            if had {
+                memory.write_entry(&self.queue, space, handle);
+            }
+            had
+        })
     }
 
     /// Whether the set has the texture.
     pub fn contains(&self, handle: TextureHandle) -> bool {
-        self.space.handles.get(handle).is_some()
+        let pool = self.pools.get(handle.pool() as usize);
+        pool.is_some_and(|pool| pool.space.handles.get(handle).is_some())
     }
 
     /// The handles of its textures.
     pub fn handles(&self) -> impl Iterator<Item = TextureHandle> {
-        self.space.handles.iter().map(|(handle, _)| handle)
+        let pools = self.pools.iter();
+        pools.flat_map(|pool| pool.space.handles.iter().map(|(handle, _)| handle))
     }
 
     /// How many textures it has.
     pub fn len(&self) -> usize {
-        self.space.handles.len()
+        self.pools.iter().map(|pool| pool.space.handles.len()).sum()
     }
 
     /// Whether it has none.
@@ -322,40 +330,96 @@ impl TextureSet {
         &self.key
     }
 
-    /// Counts how often [`TextureSet::bind_group`] became another.
+    /// Counts how often the bind group of a pool became another, and pools came to be.
     pub fn generation(&self) -> u64 {
         self.generation
     }
 
-    /// Layout of [`TextureSet::bind_group`], the same for all time: as
+    /// Layout of every pool's bind group, the same for all time: as
     /// [`GpuVtex::bind_group_layout`](crate::GpuVtex::bind_group_layout).
     pub fn bind_group_layout(&self) -> &BindGroupLayout {
-        &self.layout
+        &self.fixed.layout
     }
 
-    /// The set as it is now, ready to be set. To be asked for again where textures were added since.
+    /// The set as it is now, ready to be set; where it may have several pools, the first of them. To be asked
+    /// for again where textures were added since.
     pub fn bind_group(&self) -> &BindGroup {
-        &self.memory.group
+        &self.first().memory.group
     }
 
-    /// The words of its textures and the table of handles.
+    /// That of the pool that a handle is of; where there is no such pool, of the first, with which the handle
+    /// shows nothing.
+    pub fn bind_group_of(&self, handle: TextureHandle) -> &BindGroup {
+        let pool = self.pools.get(handle.pool() as usize);
+        &pool.unwrap_or_else(|| self.first()).memory.group
+    }
+
+    /// What each pool binds, in the order of [`TextureHandle::pool`].
+    pub fn pools(&self) -> impl ExactSizeIterator<Item = PoolBindings<'_>> {
+        self.pools.iter().map(|Pool { memory, .. }| PoolBindings {
+            bind_group: &memory.group,
+            buffer: &memory.uploaded.words,
+            texels: &memory.uploaded.texels,
+            sampler: &memory.uploaded.sampler,
+        })
+    }
+
+    /// How many pools it may have.
+    pub fn max_pools(&self) -> u32 {
+        self.options.most_pools()
+    }
+
+    /// The words of the first pool's textures and the table of handles.
     pub fn buffer(&self) -> &Buffer {
-        &self.memory.uploaded.words
+        &self.first().memory.uploaded.words
     }
 
-    /// The texels of its textures' images, as a 2D array.
+    /// The texels of the first pool's textures' images, as a 2D array.
     pub fn texels(&self) -> &TextureView {
-        &self.memory.uploaded.texels
+        &self.first().memory.uploaded.texels
     }
 
     /// The sampler of [`TextureSet::texels`].
     pub fn sampler(&self) -> &Sampler {
-        &self.memory.uploaded.sampler
+        &self.fixed.sampler
+    }
+
+    fn first(&self) -> &Pool {
+        self.pools.first().expect("a set is made with a pool")
     }
 
     /// What it takes on the device.
     pub fn bytes(&self) -> SetBytes {
-        let held = self.space.buffer_bytes();
+        let pools = self.pools.iter().map(Pool::bytes);
+        pools.fold(SetBytes::default(), |sum, pool| SetBytes {
+            words: sum.words + pool.words,
+            words_held: sum.words_held + pool.words_held,
+            texels: sum.texels + pool.texels,
+            texels_held: sum.texels_held + pool.texels_held,
+        })
+    }
+}
+
+impl Pool {
+    fn changed(
+        before: Option<&Self>,
+        (device, queue): (&Device, &Queue),
+        plan: Plan,
+        textures: &[Packed],
+        fixed: &Fixed,
+    ) -> Result<Self, RuntimeError> {
+        let change = Change {
+            plan: &plan,
+            textures,
+            fixed,
+        };
+        let before = before.map(|pool| &pool.memory);
+        let memory = Memory::changed(before, device, queue, &change)?;
+        let Plan { space, .. } = plan;
+        Ok(Self { space, memory })
+    }
+
+    fn bytes(&self) -> SetBytes {
         let texture = self.memory.uploaded.texels.texture();
         let [x, y, layers] = [
             texture.width(),
@@ -363,26 +427,13 @@ impl TextureSet {
             texture.depth_or_array_layers(),
         ]
         .map(u64::from);
+        let [words, texels] = self.space.used_bytes();
         SetBytes {
-            words: held - words::GROUP_BYTES * u64::from(self.space.words.free_groups()),
-            words_held: held,
-            texels: 4 * self.space.pages.texels(),
+            words,
+            words_held: self.space.buffer_bytes(),
+            texels,
             texels_held: 4 * x * y * layers,
         }
-    }
-}
-
-fn bounds(device: &Device, options: &TextureSetOptions) -> Bounds {
-    let limits = device.limits();
-    Bounds {
-        buffer_bytes: limits
-            .max_storage_buffer_binding_size
-            .min(limits.max_buffer_size),
-        pages: PageLimits {
-            side: options.page_side.clamp(1, limits.max_texture_dimension_2d),
-            device_side: limits.max_texture_dimension_2d,
-            device_layers: limits.max_texture_array_layers,
-        },
     }
 }
 

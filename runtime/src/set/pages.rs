@@ -1,12 +1,10 @@
-//! Where the texels of a set's textures lie on its pages.
+//! Where the texels of a pool's textures lie on its pages.
 
 use guillotiere::{AllocId, AtlasAllocator, size2};
 use vtex_shaders::{MAX_PAGE_SIDE, Place};
 
-use crate::RuntimeError;
-
 /// The word of a level's place has 6 bits for the page.
-pub(super) const MAX_PAGES: u32 = 64;
+const MAX_PAGES: u32 = 64;
 
 /// What bounds pages.
 #[derive(Clone, Copy, Debug)]
@@ -19,12 +17,24 @@ pub(super) struct PageLimits {
     pub(super) device_layers: u32,
 }
 
+impl PageLimits {
+    fn most_side(&self) -> u32 {
+        power_of_two_within(self.device_side.min(MAX_PAGE_SIDE))
+    }
+
+    fn most_pages(&self) -> u32 {
+        self.device_layers.min(MAX_PAGES)
+    }
+}
+
 /// Rooms of textures on pages of one size, whose sides are powers of two: then a place divided by the
 /// page's size is exact, and a texture looks the same, bit for bit, when the pages grow.
 #[derive(Clone, Default)]
 pub(super) struct Pages {
     size: [u32; 2],
     pages: Vec<AtlasAllocator>,
+    /// How many pages there are on the device: some have no rooms yet.
+    held: u32,
     texels: u64,
 }
 
@@ -53,8 +63,13 @@ impl Pages {
         self.size
     }
 
-    pub(super) fn count(&self) -> u32 {
+    fn count(&self) -> u32 {
         u32::try_from(self.pages.len()).unwrap_or(u32::MAX)
+    }
+
+    /// How many pages there are on the device.
+    pub(super) fn held(&self) -> u32 {
+        self.held
     }
 
     /// In rooms.
@@ -62,39 +77,51 @@ impl Pages {
         self.texels
     }
 
-    /// Rooms of these sizes, in their order.
+    /// Where there are no pages, makes them as large as rooms of these sizes ask for.
+    pub(super) fn begin(&mut self, sizes: impl Iterator<Item = [u32; 2]>, limits: &PageLimits) {
+        if self.pages.is_empty() {
+            let most = power_of_two_within(limits.side.min(limits.device_side));
+            let sizes: Vec<[u32; 2]> = sizes.collect();
+            self.size = first_size(&sizes, most).map(|side| side.min(limits.most_side()));
+        }
+    }
+
+    /// More pages for the device, where there are fewer than have rooms: half as many again.
+    pub(super) fn hold(&mut self, limits: &PageLimits) {
+        if self.count() > self.held {
+            let grown = self.held + self.held / 2;
+            self.held = grown.min(limits.most_pages()).max(self.count());
+        }
+    }
+
+    /// So many rooms of one size, or none and why.
     pub(super) fn allocate_all(
         &mut self,
-        sizes: &[[u32; 2]],
+        size: [u32; 2],
+        count: usize,
         limits: &PageLimits,
-    ) -> Result<Vec<Room>, RuntimeError> {
-        if self.pages.is_empty() {
-            self.size = first_size(
-                sizes,
-                power_of_two_within(limits.side.min(limits.device_side)),
-            );
+    ) -> Result<Vec<Room>, String> {
+        let mut rooms = Vec::with_capacity(count);
+        for _ in 0..count {
+            match self.allocate(size, limits) {
+                Ok(room) => rooms.push(room),
+                Err(reason) => {
+                    rooms.into_iter().for_each(|room| self.free(room));
+                    return Err(reason);
+                }
+            }
         }
-        // The tallest first: what is cut off beside it serves the others.
-        let mut order: Vec<usize> = (0..sizes.len()).collect();
-        order.sort_by_key(|&index| std::cmp::Reverse([sizes[index][1], sizes[index][0]]));
-        let placed = order.into_iter().map(|index| {
-            let room = self.allocate(sizes[index], limits)?;
-            Ok((index, room))
-        });
-        let mut placed: Vec<(usize, Room)> = placed.collect::<Result<_, RuntimeError>>()?;
-        placed.sort_unstable_by_key(|&(index, _)| index);
-        Ok(placed.into_iter().map(|(_, room)| room).collect())
+        Ok(rooms)
     }
 
     /// Takes a room of this size, on a page that has it, else on larger pages, else on a new one.
-    fn allocate(&mut self, size: [u32; 2], limits: &PageLimits) -> Result<Room, RuntimeError> {
-        let side = power_of_two_within(limits.device_side.min(MAX_PAGE_SIDE));
+    fn allocate(&mut self, size: [u32; 2], limits: &PageLimits) -> Result<Room, String> {
+        let side = limits.most_side();
         if size.iter().any(|&s| s > side) {
             let [x, y] = size;
-            return Err(RuntimeError::Limit(format!(
-                "texels of {x} x {y}, and a page has at most {side} a side \
-                 (max_texture_dimension_2d): bake the images smaller, or open a device that has more"
-            )));
+            return Err(format!(
+                "texels of {x} x {y}, and a page has at most {side} a side (max_texture_dimension_2d)"
+            ));
         }
         loop {
             if let Some(room) = self.place(size) {
@@ -123,7 +150,7 @@ impl Pages {
     }
 
     /// Makes room for one of this size: it ends, since a page that is empty and as large has it.
-    fn grow(&mut self, room: [u32; 2], limits: &PageLimits, most: u32) -> Result<(), RuntimeError> {
+    fn grow(&mut self, room: [u32; 2], limits: &PageLimits, most: u32) -> Result<(), String> {
         let wanted = power_of_two_within(limits.side.min(most));
         let [x, y] = self.size;
         let size = if x < room[0] || y < room[1] {
@@ -148,15 +175,14 @@ impl Pages {
         Ok(())
     }
 
-    fn push(&mut self, limits: &PageLimits, side: u32) -> Result<(), RuntimeError> {
-        let most = limits.device_layers.min(MAX_PAGES);
+    fn push(&mut self, limits: &PageLimits, side: u32) -> Result<(), String> {
+        let most = limits.most_pages();
         if self.count() >= most {
             let [x, y] = self.size;
-            return Err(RuntimeError::Limit(format!(
+            return Err(format!(
                 "texels do not fit {most} pages of {x} x {y} (max_texture_array_layers, at most \
-                 {MAX_PAGES}): remove textures, make a second set, or one whose `page_side` is greater \
-                 than {side}"
-            )));
+                 {MAX_PAGES}; they can be larger where `page_side` is greater than {side})"
+            ));
         }
         let [x, y] = self.size.map(u32::cast_signed);
         self.pages.push(AtlasAllocator::new(size2(x, y)));
@@ -207,33 +233,37 @@ mod tests {
     fn pages_grow_to_their_side_and_then_in_number() {
         let mut pages = Pages::default();
         let mut rooms = Vec::new();
-        while let Ok(placed) = pages.allocate_all(&[[250, 250]], &LIMITS) {
+        while let Ok(placed) = pages.allocate_all([250, 250], 1, &LIMITS) {
             rooms.extend(placed);
         }
         assert!((10..=12).contains(&rooms.len()), "{}", rooms.len());
         assert_eq!((pages.size(), pages.count()), ([512; 2], 3));
-        let error = pages
-            .allocate_all(&[[500; 2]], &LIMITS)
-            .unwrap_err()
-            .to_string();
+        let error = pages.allocate_all([500; 2], 1, &LIMITS).unwrap_err();
         assert!(error.contains("page_side") && error.contains("max_texture_array_layers"));
         for room in rooms {
             pages.free(room);
         }
         assert_eq!(pages.texels(), 0);
-        pages.allocate_all(&[[512; 2]; 3], &LIMITS).unwrap();
+        pages.allocate_all([512; 2], 2, &LIMITS).unwrap();
+        let texels = pages.texels();
+        assert!(
+            pages.allocate_all([500; 2], 2, &LIMITS).is_err(),
+            "one fits"
+        );
+        assert_eq!(pages.texels(), texels, "all or none");
     }
 
     #[test]
     fn a_large_room_makes_larger_pages() {
         let mut pages = Pages::default();
-        let small = pages.allocate_all(&[[100, 100]], &LIMITS).unwrap();
+        pages.begin([[100, 100]].into_iter(), &LIMITS);
+        let small = pages.allocate_all([100, 100], 1, &LIMITS).unwrap();
         assert_eq!(pages.size(), [128; 2]);
         pages.allocate([900, 40], &LIMITS).unwrap();
         assert_eq!((pages.size(), pages.count()), ([1024, 256], 1));
         assert_eq!(small[0].place, Place::default());
         pages.allocate([2048, 2048], &LIMITS).unwrap();
-        let error = pages.allocate([2049, 1], &LIMITS).unwrap_err().to_string();
+        let error = pages.allocate([2049, 1], &LIMITS).unwrap_err();
         assert!(error.contains("max_texture_dimension_2d"), "{error}");
     }
 
@@ -245,7 +275,7 @@ mod tests {
             state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
             (state >> 12) % most
         };
-        let sizes: Vec<[u32; 2]> = (0..1000)
+        let mut sizes: Vec<[u32; 2]> = (0..1000)
             .map(|_| match random(10) {
                 0..5 => [196, 130],
                 5 => [130, 100],
@@ -260,7 +290,12 @@ mod tests {
             device_layers: 256,
         };
         let mut pages = Pages::default();
-        let rooms = pages.allocate_all(&sizes, &limits).unwrap();
+        sizes.sort_by_key(|&[x, y]| std::cmp::Reverse([y, x]));
+        pages.begin(sizes.iter().copied(), &limits);
+        let rooms = sizes.iter().map(|&size| pages.allocate(size, &limits));
+        let rooms: Vec<Room> = rooms.collect::<Result<_, _>>().unwrap();
+        pages.hold(&limits);
+        assert_eq!(pages.held(), pages.count());
         let held = texels(pages.size()) * u64::from(pages.count());
         assert!(
             10 * held < 13 * pages.texels(),

@@ -1,5 +1,5 @@
-//! What of a set is where: handles, words, pages. A change is planned on a copy, so that one that fails,
-//! or whose future is dropped, leaves the set as it was.
+//! What of a pool is where: handles, words, pages. A change is planned on a copy, so that one that fails,
+//! or whose future is dropped, leaves the pool as it was.
 
 use std::ops::Range;
 
@@ -8,19 +8,20 @@ use vtex_shaders::set::{TextureHandle, table};
 
 use super::handles::Handles;
 use super::pages::{PageLimits, Pages, Room};
-use super::words::{GROUP_BYTES, Overflow, Words};
-use crate::RuntimeError;
+use super::words::{GROUP_BYTES, Words};
 
-/// What bounds a set.
+/// What bounds a pool.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
-    /// Bytes of the largest storage buffer that can be bound.
+    /// Bytes of its buffer.
     pub(super) buffer_bytes: u64,
     pub(super) pages: PageLimits,
+    /// Words of the texture that shows nothing.
+    pub(super) nothing_words: usize,
 }
 
-/// What of a set is where.
-#[derive(Clone, Debug, Default)]
+/// What of a pool is where.
+#[derive(Clone, Debug)]
 pub(super) struct Space {
     pub(super) handles: Handles<Member>,
     pub(super) words: Words,
@@ -31,7 +32,7 @@ pub(super) struct Space {
     pub(super) entries: u32,
 }
 
-/// What a texture of the set has.
+/// What a texture of the pool has.
 #[derive(Clone, Debug)]
 pub(super) struct Member {
     /// Groups of words, counted from the head.
@@ -47,20 +48,50 @@ pub(super) struct Move {
     pub(super) groups: u32,
 }
 
-/// The space with more textures in it.
+/// A pool with more textures in it.
 #[derive(Debug)]
 pub(super) struct Plan {
     pub(super) space: Space,
-    /// Of the textures added, in order.
-    pub(super) added: Vec<TextureHandle>,
+    /// The textures added, each by its index, in order.
+    pub(super) added: Vec<(usize, TextureHandle)>,
     /// Of the textures that are kept where a new buffer is needed.
     pub(super) moves: Option<Vec<Move>>,
 }
 
+/// The textures that a pool has no room for, and why it has none for the first of them.
+#[derive(Debug, Default)]
+pub(super) struct Refused {
+    pub(super) textures: Vec<usize>,
+    pub(super) reason: Option<String>,
+}
+
+impl Refused {
+    fn push(&mut self, texture: usize, reason: impl FnOnce() -> String) {
+        self.textures.push(texture);
+        self.reason.get_or_insert_with(reason);
+    }
+}
+
 impl Space {
+    pub(super) fn of_pool(pool: u32) -> Self {
+        Self {
+            handles: Handles::of_pool(pool),
+            words: Words::default(),
+            pages: Pages::default(),
+            head: 0,
+            entries: 0,
+        }
+    }
+
     /// First group of a texture in the buffer.
     pub(super) fn first_group(&self, member: &Member) -> u32 {
         self.head + member.groups.start
+    }
+
+    /// Bytes of its textures: words with the table, and texels.
+    pub(super) fn used_bytes(&self) -> [u64; 2] {
+        let words = self.buffer_bytes() - GROUP_BYTES * u64::from(self.words.free_groups());
+        [words, 4 * self.pages.texels()]
     }
 
     /// Bytes of the whole buffer.
@@ -84,79 +115,120 @@ impl Space {
         true
     }
 
-    /// With textures added, whose texels get their places. `nothing_words` is the length of the texture
-    /// that shows nothing.
+    /// With those of the textures `wanted` that fit, whose texels get their places: no plan where none does.
     pub(super) fn with(
         &self,
         textures: &mut [Packed],
-        nothing_words: usize,
+        wanted: &[usize],
         bounds: &Bounds,
-    ) -> Result<Plan, RuntimeError> {
+    ) -> (Option<Plan>, Refused) {
+        let mut refused = Refused::default();
+        let with_words = self.with_room_for_words(textures, wanted, bounds, &mut refused);
+        if with_words.is_empty() && !wanted.is_empty() {
+            return (None, refused);
+        }
         let mut space = self.clone();
-        let mut rooms = space.rooms(textures, &bounds.pages)?.into_iter();
-        let mut added = Vec::with_capacity(textures.len());
+        let placed = space.place(textures, &with_words, &bounds.pages, &mut refused);
+        if placed.is_empty() && !wanted.is_empty() {
+            return (None, refused);
+        }
+        refused.textures.sort_unstable();
+        let mut added = Vec::with_capacity(placed.len());
         let mut is_full = false;
-        for texture in &mut *textures {
-            let own: Vec<Room> = rooms.by_ref().take(page_count(texture)).collect();
-            let places: Vec<_> = own.iter().map(|room| room.place).collect();
+        for (index, rooms) in placed {
+            let places: Vec<_> = rooms.iter().map(|room| room.place).collect();
+            let texture = &mut textures[index];
             texture.move_pages(&places);
-            let length = groups(texture.words.len())?;
+            let length = groups(texture);
             let range = space.words.allocate(length);
             is_full |= range.is_none();
-            added.push(space.handles.insert(Member {
-                // Where there is none, all get new ones below.
-                groups: range.unwrap_or(0..length),
-                rooms: own,
-            })?);
+            // Where there is none, all get new ones below.
+            let groups = range.unwrap_or(0..length);
+            let handle = space.handles.insert(Member { groups, rooms });
+            added.extend(handle.map(|handle| (index, handle)));
         }
-        let entries = space.handles.capacity();
-        let moves = match is_full || entries != self.entries {
-            true => Some(space.rebuild(self, entries, groups(nothing_words)?, bounds)?),
-            false => None,
-        };
-        Ok(Plan {
+        let entries = space.handles.capacity_with(0);
+        let moves =
+            (is_full || entries != self.entries).then(|| space.rebuild(self, entries, bounds));
+        let plan = Plan {
             space,
             added,
             moves,
-        })
+        };
+        (Some(plan), refused)
     }
 
-    fn rooms(
+    /// Those of the textures for which there are words and handles, wherever others have to move.
+    fn with_room_for_words(
+        &self,
+        textures: &[Packed],
+        wanted: &[usize],
+        bounds: &Bounds,
+        refused: &mut Refused,
+    ) -> Vec<usize> {
+        let mut used = u64::from(self.words.capacity() - self.words.free_groups());
+        let mut fitting = Vec::new();
+        for &index in wanted {
+            let needed = used + u64::from(groups(&textures[index]));
+            let entries = self.handles.capacity_with(fitting.len() + 1);
+            let bytes = GROUP_BYTES * (u64::from(head_groups(entries, bounds)) + needed);
+            if fitting.len() == self.handles.room() {
+                let most = table::SLOT_MASK + 1;
+                refused.push(index, || format!("a pool has handles for {most} textures"));
+            } else if bytes > bounds.buffer_bytes {
+                refused.push(index, || {
+                    let most = bounds.buffer_bytes;
+                    format!(
+                        "words of {bytes} bytes, and a pool holds {most} (the device's \
+                         max_storage_buffer_binding_size and max_buffer_size, and `pool_bytes`)"
+                    )
+                });
+            } else {
+                used = needed;
+                fitting.push(index);
+            }
+        }
+        fitting
+    }
+
+    /// Takes the rooms of textures, in order of their indices.
+    fn place(
         &mut self,
         textures: &[Packed],
+        wanted: &[usize],
         limits: &PageLimits,
-    ) -> Result<Vec<Room>, RuntimeError> {
-        let sizes = textures.iter().flat_map(|texture| {
-            let pages = page_count(texture);
-            std::iter::repeat_n(texture.texels.size(), pages)
-        });
-        let sizes: Vec<[u32; 2]> = sizes.collect();
-        self.pages.allocate_all(&sizes, limits)
+        refused: &mut Refused,
+    ) -> Vec<(usize, Vec<Room>)> {
+        let size = |index: usize| textures[index].texels.size();
+        let all = wanted
+            .iter()
+            .flat_map(|&index| std::iter::repeat_n(size(index), page_count(&textures[index])));
+        self.pages.begin(all, limits);
+        // The tallest first: what is cut off beside it serves the others.
+        let mut order = wanted.to_vec();
+        order.sort_by_key(|&index| std::cmp::Reverse([size(index)[1], size(index)[0]]));
+        let mut placed = Vec::with_capacity(order.len());
+        for index in order {
+            let count = page_count(&textures[index]);
+            match self.pages.allocate_all(size(index), count, limits) {
+                Ok(rooms) => placed.push((index, rooms)),
+                Err(reason) => refused.push(index, || reason),
+            }
+        }
+        self.pages.hold(limits);
+        placed.sort_unstable_by_key(|&(index, _)| index);
+        placed
     }
 
-    /// Puts all textures closely together in a buffer of their own size.
-    fn rebuild(
-        &mut self,
-        before: &Self,
-        entries: u32,
-        nothing: u32,
-        bounds: &Bounds,
-    ) -> Result<Vec<Move>, RuntimeError> {
+    /// Puts all textures closely together in a buffer of their own size. They fit.
+    fn rebuild(&mut self, before: &Self, entries: u32, bounds: &Bounds) -> Vec<Move> {
         self.entries = entries;
-        self.head = entries_end(entries) / 4 + nothing;
+        self.head = head_groups(entries, bounds);
         let most = bounds.buffer_bytes / GROUP_BYTES;
         let most = most.saturating_sub(u64::from(self.head));
         let most = u32::try_from(most).unwrap_or(u32::MAX);
         let lengths: Vec<u32> = self.lengths().collect();
-        let rebuilt = before.words.rebuilt(lengths.into_iter(), most);
-        let (words, placed) = rebuilt.map_err(|Overflow(groups)| {
-            let bytes = (groups + u64::from(self.head)) * GROUP_BYTES;
-            RuntimeError::Limit(format!(
-                "textures of {bytes} bytes, and this device binds {} (max_storage_buffer_binding_size, \
-                 max_buffer_size): remove textures, make a second set, or open a device that has more",
-                bounds.buffer_bytes
-            ))
-        })?;
+        let (words, placed) = before.words.rebuilt(lengths.into_iter(), most);
         self.words = words;
         for (member, groups) in self.handles.values_mut().zip(placed) {
             member.groups = groups;
@@ -169,7 +241,7 @@ impl Space {
                 groups: u32::try_from(old.groups.len()).unwrap_or(0),
             })
         });
-        Ok(joined(kept))
+        joined(kept)
     }
 
     fn lengths(&self) -> impl Iterator<Item = u32> {
@@ -186,16 +258,26 @@ fn page_count(texture: &Packed) -> usize {
     }
 }
 
+/// Of the rooms that a texture needs.
+pub(super) fn texel_bytes(texture: &Packed) -> u64 {
+    let [x, y] = texture.texels.size().map(u64::from);
+    4 * x * y * page_count(texture) as u64
+}
+
 /// First word behind so many entries of the table, a multiple of four.
 fn entries_end(entries: u32) -> u32 {
     (table::ENTRIES + table::ENTRY_WORDS * entries).next_multiple_of(4)
 }
 
-fn groups(words: usize) -> Result<u32, RuntimeError> {
-    u32::try_from(words.div_ceil(4)).map_err(|_| {
-        let message = "a texture of more than 64 GiB: bake it smaller".to_owned();
-        RuntimeError::Limit(message)
-    })
+/// Groups in front of the textures'.
+fn head_groups(entries: u32, bounds: &Bounds) -> u32 {
+    let nothing = u32::try_from(bounds.nothing_words.div_ceil(4)).unwrap_or(u32::MAX);
+    (entries_end(entries) / 4).saturating_add(nothing)
+}
+
+/// Of a texture's words. One whose words cannot be counted is refused as too large.
+fn groups(texture: &Packed) -> u32 {
+    u32::try_from(texture.words.len().div_ceil(4)).unwrap_or(u32::MAX)
 }
 
 /// Moves of neighbours that stay neighbours are one.

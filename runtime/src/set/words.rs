@@ -1,4 +1,4 @@
-//! Where the words of a set's textures lie in its buffer.
+//! Where the words of a pool's textures lie in its buffer.
 
 use std::ops::Range;
 
@@ -14,10 +14,6 @@ pub(super) struct Words {
     /// In order, and no two of them touch.
     free: Vec<Range<u32>>,
 }
-
-/// No buffer has the words that are wanted: so many groups would be needed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Overflow(pub(super) u64);
 
 impl Words {
     fn new(capacity: u32) -> Self {
@@ -71,23 +67,30 @@ impl Words {
     }
 
     /// Ranges of these lengths, closely one after the other, in a buffer for them and for growth: twice
-    /// as large as before, unless what `most` leaves is less or a quarter stays free anyway.
+    /// as large as before, unless what `most` leaves is less or a quarter stays free anyway. They need no
+    /// more than `most`.
     pub(super) fn rebuilt(
         &self,
         lengths: impl Iterator<Item = u32> + Clone,
         most: u32,
-    ) -> Result<(Self, Vec<Range<u32>>), Overflow> {
-        let needed: u64 = lengths.clone().map(u64::from).sum();
-        let exact = u32::try_from(needed).ok().filter(|&groups| groups <= most);
-        let exact = exact.ok_or(Overflow(needed))?;
+    ) -> (Self, Vec<Range<u32>>) {
+        let needed = lengths.clone().fold(0, u32::saturating_add);
         let now = self.capacity();
-        let has_room = u64::from(now) * 3 >= 4 * needed;
+        let has_room = u64::from(now) * 3 >= 4 * u64::from(needed);
         let grown = if has_room { now } else { now.saturating_mul(2) };
-        let capacity = grown.max(FEWEST_GROUPS).min(most).max(exact);
-        let mut words = Self::new(capacity);
-        let placed = lengths.map(|length| words.allocate(length).ok_or(Overflow(needed)));
-        let placed = placed.collect::<Result<_, _>>()?;
-        Ok((words, placed))
+        let mut words = Self::new(grown.max(FEWEST_GROUPS).min(most).max(needed));
+        let mut end = 0;
+        let placed = lengths.map(|length| {
+            let start = end;
+            end += length;
+            start..end
+        });
+        let placed = placed.collect();
+        words.free.retain_mut(|free| {
+            free.start = needed;
+            free.start < free.end
+        });
+        (words, placed)
     }
 }
 
@@ -117,24 +120,20 @@ mod tests {
 
     #[test]
     fn a_buffer_doubles_and_is_packed_closely() {
-        let (words, placed) = Words::default()
-            .rebuilt([700, 800].into_iter(), 10_000)
-            .unwrap();
+        let (words, placed) = Words::default().rebuilt([700, 800].into_iter(), 10_000);
         assert_eq!(placed, [0..700, 700..1500]);
         assert_eq!(words.capacity(), 1500, "at first as large as needed");
-        let (words, placed) = words.rebuilt([800, 900].into_iter(), 10_000).unwrap();
+        assert_eq!(words.free_groups(), 0);
+        let (mut words, placed) = words.rebuilt([800, 900].into_iter(), 10_000);
         assert_eq!(placed, [0..800, 800..1700]);
         assert_eq!(words.capacity(), 3000);
+        assert_eq!(words.allocate(1300), Some(1700..3000));
         // Holes alone are no reason to grow.
-        let (words, _) = words.rebuilt([2000].into_iter(), 10_000).unwrap();
+        let (words, _) = words.rebuilt([2000].into_iter(), 10_000);
         assert_eq!(words.capacity(), 3000);
-        let (words, _) = words.rebuilt([3001].into_iter(), 4000).unwrap();
+        let (words, _) = words.rebuilt([3001].into_iter(), 4000);
         assert_eq!(words.capacity(), 4000, "no more than there may be");
-        assert_eq!(
-            words.rebuilt([4000, 1].into_iter(), 4000).err(),
-            Some(Overflow(4001))
-        );
-        let huge = words.rebuilt([u32::MAX; 2].into_iter(), u32::MAX).err();
-        assert_eq!(huge, Some(Overflow(2 * u64::from(u32::MAX))));
+        let (words, _) = words.rebuilt([1500, 2500].into_iter(), 4000);
+        assert_eq!((words.capacity(), words.free_groups()), (4000, 0));
     }
 }

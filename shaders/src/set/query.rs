@@ -1,6 +1,6 @@
 //! What a shader or a host asks of a set.
 
-use super::table::SLOT_MASK;
+use super::table::{POOL_MASK, POOL_SHIFT, SLOT_MASK};
 use crate::gpu_record;
 use crate::layout::RecordLayout;
 
@@ -38,19 +38,29 @@ impl TextureHandle {
         Self(bits)
     }
 
-    /// That of the `generation`th texture in entry `slot` of the table, counted from 1.
-    pub const fn new(slot: u32, generation: u32) -> Self {
-        Self(slot & SLOT_MASK | generation << SLOT_MASK.count_ones())
+    /// That of the `generation`th texture in entry `slot` of a pool's table, counted from 1.
+    pub const fn new(pool: u32, slot: u32, generation: u32) -> Self {
+        Self(slot & SLOT_MASK | (pool & POOL_MASK) << POOL_SHIFT | generation << GENERATION_SHIFT)
     }
 
-    /// Its entry of the table.
+    /// Its pool of the set, counted from 0.
+    pub const fn pool(self) -> u32 {
+        self.0 >> POOL_SHIFT & POOL_MASK
+    }
+
+    /// Its entry of the pool's table.
     pub const fn slot(self) -> u32 {
         self.0 & SLOT_MASK
     }
 }
 
+const GENERATION_SHIFT: u32 = POOL_SHIFT + POOL_MASK.count_ones();
+
+/// How many pools a set can have: what a handle has bits for.
+pub const MAX_POOLS: u32 = POOL_MASK + 1;
+
 /// How many textures one entry of the table can have after each other.
-pub const MAX_GENERATION: u32 = u32::MAX >> SLOT_MASK.count_ones();
+pub const MAX_GENERATION: u32 = u32::MAX >> GENERATION_SHIFT;
 
 /// One query of a queue, 32 bytes.
 #[repr(C)]
@@ -75,11 +85,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_handle_is_an_entry_and_a_count() {
-        let last = TextureHandle::new(SLOT_MASK, MAX_GENERATION);
-        assert_eq!((last.slot(), last.to_bits()), (SLOT_MASK, u32::MAX));
-        let first = TextureHandle::new(0, 1);
-        assert_eq!(first.slot(), 0);
+    fn a_handle_is_a_pool_an_entry_and_a_count() {
+        let last = TextureHandle::new(MAX_POOLS - 1, SLOT_MASK, MAX_GENERATION);
+        assert_eq!(last.to_bits(), u32::MAX);
+        assert_eq!((last.pool(), last.slot()), (MAX_POOLS - 1, SLOT_MASK));
+        let first = TextureHandle::new(0, 0, 1);
+        assert_eq!((first.pool(), first.slot()), (0, 0));
         assert_ne!(first, TextureHandle::NONE);
+        let handle = TextureHandle::new(3, 5, 7);
+        assert_eq!((handle.pool(), handle.slot()), (3, 5));
     }
 }

@@ -10,3 +10,8 @@ fn vtex_queue_length() -> u32 {
     let room = min(arrayLength(&vtex_queue_queries), arrayLength(&vtex_queue_colors));
     return min(vtex_queue_count[0], room);
 }
+
+// Which invocation of the whole dispatch this is.
+fn vtex_queue_invocation(group: vec3u, group_count: vec3u, lane: u32) -> u32 {
+    return (group.x + group.y * group_count.x) * 64u + lane;
+}

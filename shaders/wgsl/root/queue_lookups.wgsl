@@ -1,6 +1,6 @@
 //!use root/queue
 //!use root/set
-// The kernel of a queue: lookups in any texture of a set.
+// The kernel of a queue whose textures lie in one pool.
 
 @compute @workgroup_size(64)
 fn vtex_queue(
@@ -8,7 +8,7 @@ fn vtex_queue(
     @builtin(num_workgroups) group_count: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let index = (group.x + group.y * group_count.x) * 64u + lane;
+    let index = vtex_queue_invocation(group, group_count, lane);
     // No branch around the lookup: see vtex/texture.
     let length = vtex_queue_length();
     let query = vtex_queue_queries[min(index, max(length, 1u) - 1u)];

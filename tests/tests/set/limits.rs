@@ -79,6 +79,7 @@ fn words_beyond_a_storage_binding() {
     let told = [
         "max_storage_buffer_binding_size",
         "262144",
+        "max_pools",
         "remove textures",
         "second set",
     ];

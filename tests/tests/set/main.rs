@@ -8,6 +8,7 @@
 )]
 
 mod limits;
+mod pools;
 mod queue;
 
 use std::collections::BTreeSet;
@@ -29,6 +30,16 @@ const KINDS: [u32; 3] = [
     Features::LISTS | Features::MSDF | Features::IMAGES | Features::MIPS | Features::TRANSLUCENT,
     OUTLINES | Features::GROUPS | Features::MAPPING,
 ];
+
+/// A set of small pools.
+const SEVERAL: TextureSetOptions = TextureSetOptions {
+    features: 0,
+    page_side: 256,
+    threads: 0,
+    max_pools: 32,
+    pool_bytes: 1 << 20,
+    max_bytes: u64::MAX,
+};
 
 /// Textures of three kinds in turn.
 fn file(seed: u64) -> VtexFile {

@@ -9,13 +9,13 @@ use vtex_shaders::{batch_dispatch, pack, spec_key};
 use vtex_tests::fixture::random_texture;
 use vtex_tests::parity::{Subject, random_queries};
 
-use super::{OUTLINES, file, gpu, of, options, read, set, storage};
+use super::{OUTLINES, SEVERAL, file, gpu, of, options, read, set, storage};
 
 /// What no lookup gives.
-const UNTOUCHED: [f32; 4] = [9.0, 8.0, 7.0, 6.0];
+pub(super) const UNTOUCHED: [f32; 4] = [9.0, 8.0, 7.0, 6.0];
 
 /// Runs a queue of these queries, `count` of which are to be answered, with room for `room` answers.
-fn answers(
+pub(super) fn answers(
     gpu: &Gpu,
     set: &TextureSet,
     queries: &[TextureQuery],
@@ -30,7 +30,7 @@ fn answers(
     read(gpu, &colors)
 }
 
-fn bind(
+pub(super) fn bind(
     sampler: &QueueSampler,
     [queries, count, colors]: [&wgpu::Buffer; 3],
 ) -> Result<LookupQueue, RuntimeError> {
@@ -41,7 +41,7 @@ fn bind(
     })
 }
 
-fn record(gpu: &Gpu, sampler: &QueueSampler, set: &TextureSet, queue: &LookupQueue) {
+pub(super) fn record(gpu: &Gpu, sampler: &QueueSampler, set: &TextureSet, queue: &LookupQueue) {
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     sampler.record(&mut encoder, set, queue).unwrap();
     gpu.queue.submit([encoder.finish()]);
@@ -89,11 +89,16 @@ fn a_queue_is_answered_as_a_batch_and_the_twin_do() {
 #[test]
 fn only_the_count_that_fits_is_answered() {
     let Some(gpu) = gpu() else { return };
-    let mut set = set(gpu, &TextureSetOptions::default());
+    check_counts(gpu, &TextureSetOptions::default());
+    check_counts(gpu, &SEVERAL);
+}
+
+fn check_counts(gpu: &Gpu, set_options: &TextureSetOptions) {
+    let mut set = set(gpu, set_options);
     let handle = set.add(&file(0), &options(FilterMode::Point)).unwrap();
     let queries = of(handle, &random_queries(2, 200, 0.0));
     let all = answers(gpu, &set, &queries, 200, 200);
-    assert!(!all.contains(&UNTOUCHED));
+    assert!(!all.contains(&UNTOUCHED), "all are answered");
     for (count, room, answered) in [
         (0, 200, 0),
         (1, 200, 1),
@@ -105,7 +110,7 @@ fn only_the_count_that_fits_is_answered() {
         (u32::MAX, 300, 200),
     ] {
         let colors = answers(gpu, &set, &queries, count, room);
-        assert_eq!(colors.len(), room);
+        assert_eq!(colors.len(), room, "{count}");
         assert!(colors[..answered] == all[..answered], "{count} of {room}");
         let rest = &colors[answered..];
         assert!(
@@ -118,14 +123,28 @@ fn only_the_count_that_fits_is_answered() {
 #[test]
 fn any_bits_are_a_handle() {
     let Some(gpu) = gpu() else { return };
-    let mut set = set(gpu, &TextureSetOptions::default());
+    check_bits(gpu, &TextureSetOptions::default());
+    check_bits(gpu, &SEVERAL);
+}
+
+fn check_bits(gpu: &Gpu, set_options: &TextureSetOptions) {
+    let mut set = set(gpu, set_options);
     let empty = answers(gpu, &set, &[TextureQuery::default()], 1, 1);
     assert_eq!(empty, [[0.0; 4]], "of a set without textures");
     let handle = set.add(&file(0), &options(FilterMode::Point)).unwrap();
     let bits = (0..32)
         .map(|bit| 1 << bit)
         .chain((0..32).map(|bit| handle.to_bits() ^ 1 << bit))
-        .chain([0, u32::MAX, u32::MAX - 1, handle.slot(), 63, 64, 0xf_ffff]);
+        .chain([
+            0,
+            u32::MAX,
+            u32::MAX - 1,
+            handle.slot(),
+            63,
+            64,
+            0xffff,
+            0x1f_ffff,
+        ]);
     let bits: Vec<u32> = bits.filter(|&bits| bits != handle.to_bits()).collect();
     let queries: Vec<TextureQuery> = bits
         .iter()
@@ -133,7 +152,8 @@ fn any_bits_are_a_handle() {
         .collect();
     let count = u32::try_from(queries.len()).unwrap();
     let colors = answers(gpu, &set, &queries, count, queries.len());
-    assert!(colors.iter().all(|color| *color == [0.0; 4]));
+    let shown = colors.iter().position(|color| *color != [0.0; 4]);
+    assert_eq!(shown.map(|index| queries[index]), None, "{set_options:?}");
 }
 
 #[test]
@@ -164,6 +184,45 @@ fn a_queue_outlives_what_the_set_binds() {
         matches!(refused, Err(RuntimeError::Parameter(_))),
         "{refused:?}"
     );
+}
+
+#[test]
+fn a_sampler_for_one_pool_is_not_for_several() {
+    let Some(gpu) = gpu() else { return };
+    let options = options(FilterMode::Point);
+    let files: Vec<_> = (0..20).map(|seed| random_texture(seed, OUTLINES)).collect();
+    let [one, mut several] = [TextureSetOptions::default(), SEVERAL].map(|set_options| {
+        let mut set = set(gpu, &set_options);
+        set.add(&files[0], &options).unwrap();
+        set
+    });
+    let samplers = [&one, &several].map(|set| QueueSampler::new(&gpu.device, set).unwrap());
+    let buffer = storage(gpu, &[0_u32; 64]);
+    let queues = samplers.each_ref().map(|sampler| {
+        bind(
+            sampler,
+            [
+                &buffer,
+                &storage(gpu, &[0_u32]),
+                &storage(gpu, &[UNTOUCHED]),
+            ],
+        )
+        .unwrap()
+    });
+    let is_taken = |sampler: usize, set: &TextureSet, queue: usize| {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let recorded = samplers[sampler].record(&mut encoder, set, &queues[queue]);
+        assert!(matches!(recorded, Ok(()) | Err(RuntimeError::Parameter(_))));
+        recorded.is_ok()
+    };
+    assert!(is_taken(0, &one, 0) && is_taken(1, &several, 1) && is_taken(1, &one, 1));
+    assert!(!is_taken(0, &one, 1) && !is_taken(1, &several, 0));
+    assert!(is_taken(0, &several, 0), "which has one pool yet");
+    while several.pools().len() < 2 {
+        let files = files.iter().map(|file| (file, &options));
+        several.add_all(files).unwrap();
+    }
+    assert!(!is_taken(0, &several, 0));
 }
 
 #[test]

@@ -10,6 +10,7 @@ use vtex_runtime::{
     FilterMode, GpuVtex, LoadOptions, LookupQueue, QueueBuffers, QueueSampler, RuntimeError,
     TextureHandle, TextureQuery, TextureSet, TextureSetOptions, parse_all,
 };
+use vtex_shaders::set::MAX_POOLS;
 
 use super::compared;
 use crate::report::{Cell, Table};
@@ -17,8 +18,17 @@ use crate::timing::{Device, Effort, Kernel, Screen, Spread, Timing, Trial, inter
 
 use many::changed;
 
-/// How many textures share a pipeline.
-const COUNTS: [usize; 4] = [1, 10, 100, 1000];
+/// How many textures share a pipeline, and how.
+const ROWS: [Row; 6] = [
+    Row::new(1, 1, u64::MAX),
+    Row::new(10, 1, u64::MAX),
+    Row::new(100, 1, u64::MAX),
+    Row::new(100, MAX_POOLS, u64::MAX),
+    Row::new(100, MAX_POOLS, 16 << 20),
+    Row::new(1000, MAX_POOLS, u64::MAX),
+];
+/// Files of the table of single textures.
+const SINGLE: usize = 10;
 /// Queries of a queue that follow each other in one texture and lie close together: a workgroup's.
 const RUN: usize = 64;
 /// Rounds of compiling: pipelines take seconds.
@@ -26,8 +36,45 @@ const COMPILE_ROUNDS: usize = 3;
 /// Textures of which a load is timed once, without a warm-up, since it takes seconds.
 const ONCE: usize = 100;
 
+/// A set to measure.
+#[derive(Clone, Copy)]
+struct Row {
+    textures: usize,
+    max_pools: u32,
+    pool_bytes: u64,
+}
+
+impl Row {
+    const fn new(textures: usize, max_pools: u32, pool_bytes: u64) -> Self {
+        Self {
+            textures,
+            max_pools,
+            pool_bytes,
+        }
+    }
+
+    fn options(self, threads: usize) -> TextureSetOptions {
+        TextureSetOptions {
+            threads,
+            max_pools: self.max_pools,
+            pool_bytes: self.pool_bytes,
+            ..TextureSetOptions::every_feature(FilterMode::Point)
+        }
+    }
+
+    fn name(self) -> String {
+        let pools = match (self.max_pools, self.pool_bytes) {
+            (1, _) => String::new(),
+            (_, u64::MAX) => ", pools".to_owned(),
+            (_, bytes) => format!(", pools of {} MiB", bytes >> 20),
+        };
+        format!("{}{pools}", self.textures)
+    }
+}
+
 /// A set with its files in memory, and queues of lookups in it.
 struct Subject {
+    row: Row,
     files: Vec<Vec<u8>>,
     set: TextureSet,
     sampler: QueueSampler,
@@ -43,11 +90,13 @@ pub(crate) fn set_tables(
 ) -> Result<Vec<Table>> {
     let mut subjects = Vec::new();
     let mut refused = None;
-    for count in COUNTS {
-        match Subject::new(device, changed(files, count)?, effort.gpu_lookups) {
+    for row in ROWS {
+        let files = changed(files, row.textures)?;
+        match Subject::new(device, row, files, effort.gpu_lookups) {
             Ok(subject) => subjects.push(subject),
             Err(error) if is_limit(&error) => {
-                refused = Some(format!("{count} of these textures are refused: {error}."));
+                let name = row.name();
+                refused = Some(format!("{name}: these textures are refused: {error}."));
                 break;
             }
             Err(error) => return Err(error),
@@ -55,6 +104,7 @@ pub(crate) fn set_tables(
     }
     let columns = [
         "Textures",
+        "pools",
         "files, KB",
         "words, MB",
         "texels, MB",
@@ -70,7 +120,8 @@ pub(crate) fn set_tables(
         "{} drawings, repeated with other colours, in a `TextureSet` for point mode whose text has every \
          feature. MB are 10^6 bytes. `held`: buffer and pages. A load is from bytes in memory to the end of \
          the upload: parsing, hashing, decoding, packing; past {ONCE} textures it is timed once. `pipeline`: \
-         both kernels of the queue and their first run.",
+         the kernels of the queue and their first run. `pools`: a set that may have 32 pools, each of 128 MiB of \
+         words at most or as said, whose queue is put in the order of pools first.",
         files.len()
     ));
     table.note(format!(
@@ -116,13 +167,14 @@ fn is_limit(error: &anyhow::Error) -> bool {
 }
 
 impl Subject {
-    fn new(device: &Device, files: Vec<Vec<u8>>, lookups: usize) -> Result<Self> {
-        let set = load(device, &files, 0)?;
+    fn new(device: &Device, row: Row, files: Vec<Vec<u8>>, lookups: usize) -> Result<Self> {
+        let set = load(device, &files, &row.options(0))?;
         let sampler = QueueSampler::new(&device.device, &set)?;
         let handles: Vec<TextureHandle> = set.handles().collect();
         let queue = |run| queue(device, &sampler, &many::queries(&handles, lookups, run));
         let queues = [queue(RUN)?, queue(1)?];
         Ok(Self {
+            row,
             files,
             set,
             sampler,
@@ -135,7 +187,8 @@ impl Subject {
         let files: usize = self.files.iter().map(Vec::len).sum();
         let megabytes = |bytes: u64| Cell::Number(bytes as f64 / 1e6, 2);
         vec![
-            Cell::Number(self.set.len() as f64, 0),
+            Cell::Text(self.row.name()),
+            Cell::Number(self.set.pools().len() as f64, 0),
             Cell::Number(files as f64 / 1e3, 0),
             megabytes(bytes.words),
             megabytes(bytes.texels),
@@ -150,7 +203,7 @@ impl Subject {
         for _ in 0..rounds {
             for (threads, seconds) in [1, 0].into_iter().zip(&mut seconds) {
                 let start = Instant::now();
-                drop(load(device, &self.files, threads)?);
+                drop(load(device, &self.files, &self.row.options(threads))?);
                 seconds.push(1e3 * start.elapsed().as_secs_f64());
             }
         }
@@ -177,9 +230,9 @@ impl Subject {
 }
 
 /// A set of files, and the end of its upload.
-fn load(device: &Device, files: &[Vec<u8>], threads: usize) -> Result<TextureSet> {
+fn load(device: &Device, files: &[Vec<u8>], options: &TextureSetOptions) -> Result<TextureSet> {
     let limits = Limits::default();
-    let files: Vec<VtexFile> = match threads {
+    let files: Vec<VtexFile> = match options.threads {
         1 => files
             .iter()
             .map(|bytes| VtexFile::parse(bytes, &limits))
@@ -188,11 +241,7 @@ fn load(device: &Device, files: &[Vec<u8>], threads: usize) -> Result<TextureSet
             .into_iter()
             .collect::<Result<_, _>>()?,
     };
-    let options = TextureSetOptions {
-        threads,
-        ..TextureSetOptions::every_feature(FilterMode::Point)
-    };
-    let mut set = TextureSet::new(&device.device, &device.queue, &options)?;
+    let mut set = TextureSet::new(&device.device, &device.queue, options)?;
     let loaded = LoadOptions::default();
     set.add_all(files.iter().map(|file| (file, &loaded)))?;
     device.finish()?;
@@ -246,7 +295,7 @@ fn handle_table(device: &Device, files: &[(String, VtexFile)], effort: Effort) -
         "Lookups of points. `alone`: the text of `GpuVtex`. `by handle`: that of a set with this texture \
          alone, and one with every feature.",
     );
-    for (name, file) in files.iter().take(COUNTS[1]) {
+    for (name, file) in files.iter().take(SINGLE) {
         let options = LoadOptions::default();
         let texture = GpuVtex::upload(&device.device, &device.queue, file, &options)?;
         let alone = kernel(
