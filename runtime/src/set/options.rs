@@ -7,6 +7,9 @@ use wgpu::Device;
 use super::pages::PageLimits;
 use super::space::Bounds;
 
+/// The table has the first word of a texture as a `u32`.
+const COUNTED_BYTES: u64 = 1 << 34;
+
 /// What a caller may decide about a set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TextureSetOptions {
@@ -67,7 +70,8 @@ impl TextureSetOptions {
             buffer_bytes: limits
                 .max_storage_buffer_binding_size
                 .min(limits.max_buffer_size)
-                .min(self.pool_bytes),
+                .min(self.pool_bytes)
+                .min(COUNTED_BYTES),
             pages: PageLimits {
                 side: self.page_side.clamp(1, limits.max_texture_dimension_2d),
                 device_side: limits.max_texture_dimension_2d,
