@@ -28,6 +28,17 @@ pub(super) struct Region {
     pub(super) apart: [f32; 2],
 }
 
+/// One place, as wide as the longer of the axes, which are those of a footprint in cells.
+pub(super) fn place([ax, ay, bx, by]: [f32; 4], texels_per_cell: f32) -> Region {
+    let longer = (ax * ax + ay * ay).max(bx * bx + by * by);
+    let texels = longer * texels_per_cell * texels_per_cell;
+    Region {
+        lod: 0.5 * texels.max(0.25).log2(),
+        places: 1,
+        apart: [0.0; 2],
+    }
+}
+
 /// One level of an image.
 #[derive(Clone, Copy, Debug)]
 struct Level {

@@ -1,7 +1,7 @@
 //! Twin of `vtex/region_long.wgsl` and of `vtex/region_round.wgsl`.
 
 use super::Sampler;
-use super::image::Region;
+use super::image::{Region, place};
 use super::math::{clamp, to_f32, to_u32};
 use crate::layout::{filter, image};
 
@@ -14,13 +14,7 @@ pub(super) fn region(
     texels_per_cell: f32,
 ) -> Region {
     if sampler.settings.filter != filter::FOOTPRINT {
-        let longer = (ax * ax + ay * ay).max(bx * bx + by * by);
-        let texels = longer * texels_per_cell * texels_per_cell;
-        return Region {
-            lod: 0.5 * texels.max(0.25).log2(),
-            places: 1,
-            apart: [0.0; 2],
-        };
+        return place([ax, ay, bx, by], texels_per_cell);
     }
     let xx = ax * ax + bx * bx;
     let xy = ax * ay + bx * by;

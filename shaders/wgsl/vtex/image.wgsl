@@ -20,6 +20,13 @@ struct VtexImageRegion {
     apart: vec2f,
 }
 
+// One place, as wide as the longer of the axes, which are those of a footprint in cells.
+fn vtex_image_place(axes: vec4f, texels_per_cell: f32) -> VtexImageRegion {
+    let longer = max(dot(axes.xy, axes.xy), dot(axes.zw, axes.zw));
+    let lod = 0.5 * log2(max(longer * texels_per_cell * texels_per_cell, 0.25));
+    return VtexImageRegion(lod, 1u, vec2f(0.0));
+}
+
 // `t` in [0, 1] over the image, whose record has this size and last level; `apart` is that of the region
 // in the same measure. Level 0 is the finest; the last level is kept beyond the end. A place beyond a
 // side is moved to the side, or comes back in at the other where the image wraps; the texels around a

@@ -20,7 +20,7 @@ fn vtex_image_entry(vt: VtexTexture, lookup: VtexLookup, index: u32, uv: vec2f) 
     let about = vtex_word4(vt, record + VTEX_IMAGE_SIZE);
     let texels = bitcast<vec2f>(about.xy);
     let texels_per_cell = texels.x / (size.x * vt.cell_from_uv.x);
-    let region = vtex_region(lookup.axes, texels_per_cell);
+    let region = vtex_region(vt, lookup.axes, texels_per_cell);
     let apart = region.apart / (vt.cell_from_uv.xy * size);
     return vtex_image_filtered(
         vt, record, texels, about.z, region, t, apart, vec2<bool>(false),

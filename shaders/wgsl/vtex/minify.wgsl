@@ -10,7 +10,7 @@
 // modes, whose lookups in cells have hard edges, from half a texel to one.
 
 fn vtex_minify(vt: VtexTexture, lookup: VtexLookup) -> vec4f {
-    let region = vtex_region_minified(lookup.axes, vt.mip_texels_per_cell);
+    let region = vtex_region_minified(vt, lookup.axes, vt.mip_texels_per_cell);
     // Both sides cost as much for a weight that no eye sees as for half.
     let sooner = select(1.0, 0.0, vtex_settings_has(vt, VTEX_FEATURE_FOOTPRINT));
     let fade = vtex_image_weight(region.lod + sooner);

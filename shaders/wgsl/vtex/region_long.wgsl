@@ -1,10 +1,16 @@
 //!use core/layout
+//!use vtex/texture
+//!use vtex/settings
 //!use vtex/image
 // How a footprint looks images up, in footprint mode: in as many places as it is longer than wide.
 
 // `axes` are those of a footprint in cells. The region has the footprint's covariance, as long as the
 // longer principal axis is at most VTEX_IMAGE_PLACES times the shorter one.
-fn vtex_region(axes: vec4f, texels_per_cell: f32) -> VtexImageRegion {
+fn vtex_region(vt: VtexTexture, axes: vec4f, texels_per_cell: f32) -> VtexImageRegion {
+    // Of several textures of one text some may be looked up without it.
+    if !vtex_settings_has(vt, VTEX_FEATURE_FOOTPRINT) {
+        return vtex_image_place(axes, texels_per_cell);
+    }
     let xx = axes.x * axes.x + axes.z * axes.z;
     let xy = axes.x * axes.y + axes.z * axes.w;
     let yy = axes.y * axes.y + axes.w * axes.w;
@@ -31,12 +37,12 @@ fn vtex_region(axes: vec4f, texels_per_cell: f32) -> VtexImageRegion {
 }
 
 // As vtex_region where that is more than half a texel long, else of a lod that no chain fades in at.
-fn vtex_region_minified(axes: vec4f, texels_per_cell: f32) -> VtexImageRegion {
+fn vtex_region_minified(vt: VtexTexture, axes: vec4f, texels_per_cell: f32) -> VtexImageRegion {
     // Roots and a logarithm cost as much as the rest of a magnified lookup. No region is wider than
     // its longer axis. Without a chain its texels are 0.
     let longer = max(dot(axes.xy, axes.xy), dot(axes.zw, axes.zw));
     if longer * texels_per_cell * texels_per_cell > 0.25 {
-        return vtex_region(axes, texels_per_cell);
+        return vtex_region(vt, axes, texels_per_cell);
     }
     return VtexImageRegion(-1.0, 1u, vec2f(0.0));
 }
