@@ -100,7 +100,7 @@ impl BatchSampler {
             Some(pipeline) => pipeline,
             None => {
                 let wgsl = ShaderSource::Wgsl(vtex_shaders::batch_kernel(&key).into());
-                compiled(device, "batch kernel", || Ok(pipeline(device, wgsl))).await?
+                compiled(device, "batch kernel", || Ok(batch_pipeline(device, wgsl))).await?
             }
         };
         Ok(Self {
@@ -194,7 +194,7 @@ impl BatchSampler {
 }
 
 /// The file's SPIR-V where [`Trust`]'s table says that it is used.
-fn trusted_spirv<'a>(
+pub(crate) fn trusted_spirv<'a>(
     file: &'a VtexFile,
     key: &SpecKey,
     trust: Trust,
@@ -232,7 +232,7 @@ fn trusted_spirv<'a>(
 
 /// Compiles the file's kernel; `None` and a notice where that is refused.
 #[cfg(all(feature = "spirv", not(target_arch = "wasm32")))]
-async fn stored_kernel(
+pub(crate) async fn stored_kernel(
     device: &Device,
     spirv: &[u32],
     notices: &mut Vec<String>,
@@ -242,7 +242,7 @@ async fn stored_kernel(
     let made = compiled(device, "batch kernel", || {
         let source = ShaderSource::SpirV(spirv.into());
         // naga may stumble over words no compiler would write; the process must not.
-        catch_unwind(AssertUnwindSafe(|| pipeline(device, source)))
+        catch_unwind(AssertUnwindSafe(|| batch_pipeline(device, source)))
             .map_err(|_| RuntimeError::Shader("the parser panicked".to_owned()))
     });
     match made.await {
@@ -259,7 +259,7 @@ async fn stored_kernel(
 /// This build reads no SPIR-V.
 #[cfg(not(all(feature = "spirv", not(target_arch = "wasm32"))))]
 #[expect(clippy::unused_async, reason = "the other form waits for the device")]
-async fn stored_kernel(
+pub(crate) async fn stored_kernel(
     _: &Device,
     _: &[u32],
     notices: &mut Vec<String>,
@@ -269,7 +269,7 @@ async fn stored_kernel(
 }
 
 /// Compiles a kernel of the batch interface: group 0 with words, texels, sampler, queries, colours.
-fn pipeline(device: &Device, source: ShaderSource<'_>) -> ComputePipeline {
+pub(crate) fn batch_pipeline(device: &Device, source: ShaderSource<'_>) -> ComputePipeline {
     let label = "vtex batch";
     // Written out, not derived from the shader: a derived layout leaves out what a kernel does not
     // read, and a kernel from a file may read less than we bind.

@@ -58,7 +58,8 @@ pub use scene::{
 pub use set::{PoolBindings, SetBytes, TextureSet, TextureSetOptions};
 #[cfg(feature = "tracer")]
 pub use tracer::{
-    Background, Film, LightSampling, RayHit, RayQuery, ToneMap, TraceOptions, TraceStats, Tracer,
+    Background, Film, Integrator, LightSampling, RayHit, RayQuery, StageTime, ToneMap,
+    TraceOptions, TraceStats, Tracer,
 };
 pub use vtex_format::{AddressMode, Features, Limits, SpecKey, VtexFile};
 pub use vtex_shaders::PackOptions;

@@ -86,7 +86,7 @@ impl Tracer {
         if let Some(pipeline) = self.queries.get() {
             return Ok(pipeline);
         }
-        let made = QueryPipeline::new(&self.device, &self.pipelines.scene_layout).await?;
+        let made = QueryPipeline::new(&self.device, &self.traversal.layout).await?;
         // Of two calls at the same time the first to end keeps its kernel.
         Ok(self.queries.get_or_init(|| made))
     }
@@ -98,7 +98,7 @@ impl Tracer {
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
             pass.set_pipeline(&pipeline.intersect);
-            pass.set_bind_group(0, &self.bindings.scene, &[]);
+            pass.set_bind_group(0, &self.traversal.group, &[]);
             pass.set_bind_group(1, queries, &[]);
             pass.dispatch_workgroups(workgroups, 1, 1);
         }

@@ -6,24 +6,28 @@ mod intersect;
 mod options;
 mod passes;
 mod pipeline;
+mod queues;
 pub(crate) mod records;
+mod stages;
 mod textures;
 mod timer;
 mod upload;
 
 use std::sync::OnceLock;
 
-use wgpu::{Buffer, BufferUsages, Device, Queue};
+use wgpu::{Buffer, BufferUsages, CommandEncoder, Device, Queue};
 
 pub use film::{Film, ToneMap};
 pub use intersect::{RayHit, RayQuery};
-pub use options::{Background, LightSampling, TraceOptions};
+pub use options::{Background, Integrator, LightSampling, TraceOptions};
+pub use stages::StageTime;
 
 use crate::device::{checked, empty_buffer, read_back, submitted_work};
 use crate::{RuntimeError, Scene};
-use passes::{MAX_FILM_SIDE, MAX_IN_FLIGHT, Passes};
-use pipeline::{Bindings, Pipelines, QueryPipeline};
+use passes::{MAX_FILM_SIDE, MAX_IN_FLIGHT, PATHS_PER_PASS, Passes};
+use pipeline::{Inputs, QueryPipeline, SceneGroup, SingleKernel, TRAVERSAL};
 use records::PassRecord;
+use stages::{StageTimer, Stages};
 use timer::Timer;
 use upload::SceneBuffers;
 
@@ -38,8 +42,8 @@ pub struct Tracer {
     size: [u32; 2],
     samples: u32,
     scene: SceneBuffers,
-    pipelines: Pipelines,
-    bindings: Bindings,
+    kernels: Kernels,
+    traversal: SceneGroup,
     queries: OnceLock<QueryPipeline>,
     film_sum: Buffer,
     film_rays: Buffer,
@@ -48,6 +52,13 @@ pub struct Tracer {
     /// Every pixel has `samples` samples: false while samples are added, and for ever after when
     /// that fails or its future is dropped half way.
     film_is_even: bool,
+}
+
+/// What traces paths.
+#[derive(Debug)]
+enum Kernels {
+    Single(Box<SingleKernel>),
+    Staged(Box<Stages>),
 }
 
 /// What a picture has cost so far.
@@ -102,28 +113,25 @@ impl Tracer {
         }
         // The scene first: which code the shader needs depends on the textures' features.
         let buffers = SceneBuffers::upload(device, queue, scene, size, options).await?;
-        let pipelines = Pipelines::new(device, buffers.texture_features()).await?;
+        let [film_sum, film_rays, pass] = film_buffers(device, size).await?;
+        let inputs = Inputs {
+            scene: &buffers,
+            pass: &pass,
+            film: [&film_sum, &film_rays],
+            size,
+            max_bounces: options.max_bounces,
+        };
+        let kernels = Kernels::new(device, options.integrator, inputs).await?;
         checked(device, "film", || {
-            // Buffers, not storage textures: core WebGPU cannot read and write RGBA32Float in place.
-            // New buffers hold zeros, so the film starts black.
-            let pixels = u64::from(size[0]) * u64::from(size[1]);
-            let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
-            let film_sum = empty_buffer(device, "vtex film", pixels * 16, usage)?;
-            let film_rays = empty_buffer(device, "vtex film rays", pixels * 4, usage)?;
-            let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
-            let pass_bytes = size_of::<PassRecord>() as u64;
-            let pass = empty_buffer(device, "vtex pass", pass_bytes, usage)?;
-            let bindings =
-                Bindings::new(device, &pipelines, &buffers, &pass, &film_sum, &film_rays);
             Ok(Self {
                 timer: Timer::new(device, queue)?,
+                traversal: SceneGroup::new(device, &buffers, &pass, TRAVERSAL),
                 device: device.clone(),
                 queue: queue.clone(),
                 size,
                 samples: 0,
                 scene: buffers,
-                pipelines,
-                bindings,
+                kernels,
                 queries: OnceLock::new(),
                 film_sum,
                 film_rays,
@@ -158,8 +166,7 @@ impl Tracer {
             self.reset();
         }
         self.film_is_even = false;
-        let passes = Passes::new(self.size, self.samples, samples);
-        for (count, record) in (1..).zip(passes) {
+        for (count, record) in (1..).zip(self.passes(samples)) {
             self.dispatch(record).await?;
             if count % MAX_IN_FLIGHT == 0 {
                 self.settle().await?;
@@ -171,6 +178,58 @@ impl Tracer {
         Ok(())
     }
 
+    /// As `Tracer::accumulate`, one submission after the other, and what each stage took on the device.
+    /// Nothing where the device has no timestamps. The stages wait for each other longer than in
+    /// `Tracer::accumulate`, so their sum is more than what that takes.
+    ///
+    /// # Errors
+    /// [`RuntimeError::Device`] when the device is lost.
+    #[cfg(all(feature = "blocking", not(target_arch = "wasm32")))]
+    pub fn accumulate_timed(&mut self, samples: u32) -> Result<Vec<StageTime>, RuntimeError> {
+        let device = self.device.clone();
+        crate::device::block_on(&device, self.accumulate_timed_async(samples))
+    }
+
+    /// As `Tracer::accumulate_timed`, for callers that must not block.
+    ///
+    /// # Errors
+    /// [`RuntimeError::Device`] when the device is lost.
+    pub async fn accumulate_timed_async(
+        &mut self,
+        samples: u32,
+    ) -> Result<Vec<StageTime>, RuntimeError> {
+        let (device, queue) = (self.device.clone(), self.queue.clone());
+        let timer = checked(&device, "timer", || StageTimer::new(&device, &queue)).await?;
+        let (Some(mut timer), Kernels::Staged(_)) = (timer, &self.kernels) else {
+            let before = self.timer.as_ref().map(Timer::total_ns);
+            self.accumulate_async(samples).await?;
+            let after = self.timer.as_ref().map(Timer::total_ns);
+            let time = before.zip(after).map(|(before, after)| StageTime {
+                stage: "render",
+                device_ns: after.saturating_sub(before),
+            });
+            return Ok(time.into_iter().collect());
+        };
+        if !self.film_is_even {
+            self.reset();
+        }
+        self.film_is_even = false;
+        for record in self.passes(samples) {
+            self.dispatch_timed(record, &mut timer).await?;
+        }
+        self.samples = self.samples.saturating_add(samples);
+        self.film_is_even = true;
+        Ok(timer.times())
+    }
+
+    fn passes(&self, samples: u32) -> Passes {
+        let paths = match &self.kernels {
+            Kernels::Single(_) => PATHS_PER_PASS,
+            Kernels::Staged(stages) => stages.paths(),
+        };
+        Passes::new(self.size, self.samples, samples, paths)
+    }
+
     /// Waits for what was submitted and adds up its times.
     async fn settle(&mut self) -> Result<(), RuntimeError> {
         match &mut self.timer {
@@ -180,24 +239,13 @@ impl Tracer {
     }
 
     async fn dispatch(&mut self, record: PassRecord) -> Result<(), RuntimeError> {
-        checked(&self.device, "render", || {
-            // The queue keeps the order of writes and submissions, so one buffer serves all passes.
-            let bytes = bytemuck::bytes_of(&record);
-            self.queue.write_buffer(&self.pass, 0, bytes);
-            let mut encoder = self
-                .device
-                .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            {
-                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                    label: Some("vtex render"),
-                    timestamp_writes: self.timer.as_ref().map(Timer::writes),
-                });
-                pass.set_pipeline(&self.pipelines.render);
-                pass.set_bind_group(0, &self.bindings.scene, &[]);
-                pass.set_bind_group(1, &self.bindings.film, &[]);
-                pass.set_bind_group(2, &self.bindings.textures, &[]);
-                // Workgroups of 8 by 8, see `root/render.wgsl`, which drops what lies outside.
-                pass.dispatch_workgroups(self.size[0].div_ceil(8), record.row_count.div_ceil(8), 1);
+        let device = self.device.clone();
+        checked(&device, "render", || {
+            let mut encoder = self.begin(&record);
+            let timestamps = self.timer.as_ref().map(Timer::writes);
+            match &self.kernels {
+                Kernels::Single(kernel) => kernel.record(&mut encoder, &record, timestamps),
+                Kernels::Staged(stages) => stages.record(&mut encoder, &record, timestamps),
             }
             if let Some(timer) = &mut self.timer {
                 timer.resolve(&mut encoder);
@@ -206,6 +254,61 @@ impl Tracer {
             Ok(())
         })
         .await
+    }
+
+    async fn dispatch_timed(
+        &mut self,
+        record: PassRecord,
+        timer: &mut StageTimer,
+    ) -> Result<(), RuntimeError> {
+        checked(&self.device, "render", || {
+            let mut encoder = self.begin(&record);
+            if let Kernels::Staged(stages) = &self.kernels {
+                stages.record_timed(&mut encoder, &record, timer);
+            }
+            self.queue.submit([encoder.finish()]);
+            Ok(())
+        })
+        .await?;
+        timer.finish(&self.device, &self.queue).await
+    }
+
+    /// Writes what a submission reads. The queue keeps the order of writes and submissions, so one buffer
+    /// serves all passes.
+    fn begin(&self, record: &PassRecord) -> CommandEncoder {
+        self.queue
+            .write_buffer(&self.pass, 0, bytemuck::bytes_of(record));
+        if let Kernels::Staged(stages) = &self.kernels {
+            stages.prepare(&self.queue, record);
+        }
+        self.device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
+    }
+
+    /// Where a file's own kernel differs from its key or was not used though
+    /// [`TraceOptions::trust`] asks for it, one sentence each.
+    pub fn notices(&self) -> &[String] {
+        match &self.kernels {
+            Kernels::Single(_) => &[],
+            Kernels::Staged(stages) => stages.notices(),
+        }
+    }
+
+    /// Kernels that look textures up: one for each kernel key of the scene's textures, at most 16, none in
+    /// [`Integrator::Single`].
+    pub fn lookup_kernels(&self) -> usize {
+        match &self.kernels {
+            Kernels::Single(_) => 0,
+            Kernels::Staged(stages) => stages.lookup_kernels(),
+        }
+    }
+
+    /// How the work is divided: never [`Integrator::Auto`].
+    pub fn integrator(&self) -> Integrator {
+        match &self.kernels {
+            Kernels::Single(_) => Integrator::Single,
+            Kernels::Staged(_) => Integrator::Staged,
+        }
     }
 
     /// Samples a pixel so far.
@@ -292,4 +395,35 @@ impl Tracer {
             triangles: self.scene.triangle_count(),
         })
     }
+}
+
+impl Kernels {
+    async fn new(
+        device: &Device,
+        integrator: Integrator,
+        inputs: Inputs<'_>,
+    ) -> Result<Self, RuntimeError> {
+        Ok(match integrator.chosen() {
+            Integrator::Staged => Self::Staged(Box::new(Stages::new(device, inputs).await?)),
+            _ => Self::Single(Box::new(SingleKernel::new(device, inputs).await?)),
+        })
+    }
+}
+
+/// Sums of samples, counts of rays, and what a submission is to do.
+async fn film_buffers(device: &Device, size: [u32; 2]) -> Result<[Buffer; 3], RuntimeError> {
+    checked(device, "film", || {
+        // Buffers, not storage textures: core WebGPU cannot read and write RGBA32Float in place.
+        // New buffers hold zeros, so the film starts black.
+        let pixels = u64::from(size[0]) * u64::from(size[1]);
+        let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
+        let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+        let pass_bytes = size_of::<PassRecord>() as u64;
+        Ok([
+            empty_buffer(device, "vtex film", pixels * 16, usage)?,
+            empty_buffer(device, "vtex film rays", pixels * 4, usage)?,
+            empty_buffer(device, "vtex pass", pass_bytes, uniform)?,
+        ])
+    })
+    .await
 }

@@ -1,6 +1,6 @@
 //! How a picture is traced.
 
-use crate::RuntimeError;
+use crate::{RuntimeError, Trust};
 
 /// Settings of a [`Tracer`](crate::Tracer).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +22,35 @@ pub struct TraceOptions {
     pub light_sampling: LightSampling,
     /// What camera rays that meet nothing leave on the film.
     pub background: Background,
+    /// How the work is divided into kernels.
+    pub integrator: Integrator,
+    /// Whose kernels look textures up in [`Integrator::Staged`]; [`Integrator::Single`] has one of its own.
+    /// A file's kernel reads that file alone, so at most eight textures are looked up by theirs, and further
+    /// ones by text, as [`Tracer::notices`](crate::Tracer::notices) say.
+    pub trust: Trust,
+}
+
+/// How the work is divided into kernels. The picture is the same but for rounding.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Integrator {
+    /// The faster one: [`Integrator::Staged`], also on the software driver on which both were measured.
+    #[default]
+    Auto,
+    /// A kernel for each stage of a path, with queues between them; textures of one kernel key share a
+    /// kernel, which answers a queue of lookups. A texture's features cost others nothing.
+    Staged,
+    /// One kernel for whole paths, with the code of all features that any texture has.
+    Single,
+}
+
+impl Integrator {
+    /// What [`Integrator::Auto`] means.
+    pub(super) fn chosen(self) -> Self {
+        match self {
+            Self::Auto | Self::Staged => Self::Staged,
+            Self::Single => Self::Single,
+        }
+    }
 }
 
 /// How area lights are found.
@@ -59,6 +88,8 @@ impl Default for TraceOptions {
             indirect_clamp: 16.0,
             light_sampling: LightSampling::Mis,
             background: Background::Sky,
+            integrator: Integrator::Auto,
+            trust: Trust::Regenerate,
         }
     }
 }

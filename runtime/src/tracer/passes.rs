@@ -5,12 +5,12 @@ use super::records::PassRecord;
 /// Longest side of a film: 8,192 workgroups of 8 pixels stay far below the dispatch limit of
 /// 65,535. Larger pictures are refused.
 pub(super) const MAX_FILM_SIDE: u32 = 65_536;
-/// Paths of one submission. On a software driver at about a million rays a second this is a
-/// fraction of a second, on a graphics card well under a millisecond's overhead a frame; drivers
-/// that reset after two seconds are never met.
-const PATHS_PER_PASS: u32 = 1 << 16;
+/// Paths of one submission, unless their state asks for fewer. On a software driver at about a million
+/// rays a second this is a fraction of a second, on a graphics card well under a millisecond's overhead a
+/// frame; drivers that reset after two seconds are never met. A row of the widest film is just as long.
+pub(super) const PATHS_PER_PASS: u32 = MAX_FILM_SIDE;
 /// Samples one invocation may add in one pass, so that small films need fewer submissions.
-const MAX_SAMPLES_PER_PASS: u32 = 16;
+pub(super) const MAX_SAMPLES_PER_PASS: u32 = 16;
 /// Submissions that may be under way before the host waits, which bounds queued memory.
 pub(super) const MAX_IN_FLIGHT: u32 = 8;
 /// Rows and samples of each submission: all rows of some samples, then the next samples.
@@ -25,11 +25,10 @@ pub(super) struct Passes {
 }
 
 impl Passes {
-    pub(super) fn new(size: [u32; 2], sample_first: u32, sample_count: u32) -> Self {
-        // A row of the widest film is just PATHS_PER_PASS, so whole rows always fit.
-        let rows = (PATHS_PER_PASS / size[0]).clamp(1, size[1]);
-        let samples =
-            (PATHS_PER_PASS / rows.saturating_mul(size[0]).max(1)).clamp(1, MAX_SAMPLES_PER_PASS);
+    /// `paths`: how many a submission may have, at least a row.
+    pub(super) fn new(size: [u32; 2], sample_first: u32, sample_count: u32, paths: u32) -> Self {
+        let rows = (paths / size[0]).clamp(1, size[1]);
+        let samples = (paths / rows.saturating_mul(size[0]).max(1)).clamp(1, MAX_SAMPLES_PER_PASS);
         Self {
             height: size[1],
             rows_per_pass: rows,
@@ -69,11 +68,13 @@ impl Iterator for Passes {
 mod tests {
     use super::*;
 
-    fn check(size: [u32; 2], first: u32, count: u32) {
+    fn check(size: [u32; 2], first: u32, count: u32, paths: u32) {
         let mut seen = vec![0_u32; size[1] as usize];
-        for pass in Passes::new(size, first, count) {
+        for pass in Passes::new(size, first, count, paths) {
             assert!(pass.row_count > 0 && pass.sample_count > 0, "idle pass");
             assert!(pass.sample_first >= first, "sample twice");
+            let pixels = pass.row_count * size[0];
+            assert!(pixels * pass.sample_count <= paths, "more paths than fit");
             for row in pass.row_first..pass.row_first + pass.row_count {
                 assert_eq!(pass.sample_first, first + seen[row as usize], "order");
                 seen[row as usize] += pass.sample_count;
@@ -84,9 +85,11 @@ mod tests {
 
     #[test]
     fn passes_cover_every_row_and_sample_once_in_order() {
-        check([1, 1], 0, 1000);
-        check([640, 480], 5, 3);
-        check([65_536, 3], 0, 2);
-        check([100, 100], 0, 0);
+        check([1, 1], 0, 1000, PATHS_PER_PASS);
+        check([640, 480], 5, 3, PATHS_PER_PASS);
+        check([640, 480], 5, 3, 1 << 18);
+        check([65_536, 3], 0, 2, PATHS_PER_PASS);
+        check([100, 100], 0, 0, PATHS_PER_PASS);
+        check([100, 7], 0, 3, 128);
     }
 }

@@ -1,37 +1,67 @@
-//! Shader, layouts and bind groups of the tracer.
+//! Kernels that share a scene: the path tracer in one, and the query of single rays.
 
 use vtex_shaders::{BindingSlot, LinkContext};
 use wgpu::{
     BindGroup, BindGroupEntry, BindGroupLayout, BindGroupLayoutEntry, Buffer, BufferBindingType,
-    ComputePipeline, Device, ShaderStages,
+    CommandEncoder, ComputePassDescriptor, ComputePassTimestampWrites, ComputePipeline, Device,
+    ShaderStages,
 };
 
 use crate::RuntimeError;
-use crate::device::{READ, Uploaded, WRITE, buffers_layout, compiled, kernel};
+use crate::device::{READ, Uploaded, WRITE, buffer_entry, buffers_layout, compiled, kernel};
 
+use super::records::PassRecord;
 use super::upload::SceneBuffers;
 
 const UNIFORM: BufferBindingType = BufferBindingType::Uniform;
 
-// Core WebGPU guarantees eight storage buffers a stage. `render` uses seven, so all textures of a
-// scene lie in one.
-/// Bindings of `shaders/wgsl/root/render.wgsl` and `root/intersect.wgsl`, group by group, in order.
-const SCENE_GROUP: &[BufferBindingType] = &[UNIFORM, UNIFORM, READ, READ, READ, READ];
+/// Bindings of `shaders/wgsl/trace/bindings.wgsl`, in order.
+const SCENE_BINDINGS: [BufferBindingType; 6] = [UNIFORM, UNIFORM, READ, READ, READ, READ];
+/// Those that traversal reads: frame, pass, nodes, triangles.
+pub(super) const TRAVERSAL: &[u32] = &[0, 1, 2, 3];
+/// Those that shading reads: frame, pass, triangles, attributes, materials.
+pub(super) const SHADING: &[u32] = &[0, 1, 3, 4, 5];
+/// All of them.
+const EVERYTHING: &[u32] = &[0, 1, 2, 3, 4, 5];
+
 const FILM_GROUP: &[BufferBindingType] = &[WRITE, WRITE];
 const QUERY_GROUP: &[BufferBindingType] = &[READ, WRITE];
 
 const TEXTURE_SLOT: BindingSlot = BindingSlot {
-    group: 2,
+    group: 1,
     binding: 0,
 };
 
-/// The compiled path tracer and the layouts of its groups.
+/// What kernels of paths work on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Inputs<'a> {
+    pub(super) scene: &'a SceneBuffers,
+    pub(super) pass: &'a Buffer,
+    pub(super) film: [&'a Buffer; 2],
+    pub(super) size: [u32; 2],
+    pub(super) max_bounces: u32,
+}
+
+/// Group 0: the scene, or the part of it that a kernel reads.
 #[derive(Debug)]
-pub(super) struct Pipelines {
-    pub(super) render: ComputePipeline,
-    pub(super) scene_layout: BindGroupLayout,
-    pub(super) film_layout: BindGroupLayout,
-    pub(super) texture_layout: BindGroupLayout,
+pub(super) struct SceneGroup {
+    pub(super) layout: BindGroupLayout,
+    pub(super) group: BindGroup,
+}
+
+/// A layout of buffers, and the buffers.
+#[derive(Debug)]
+pub(super) struct BufferGroup {
+    pub(super) layout: BindGroupLayout,
+    pub(super) group: BindGroup,
+}
+
+/// The whole path tracer in one kernel.
+#[derive(Debug)]
+pub(super) struct SingleKernel {
+    render: ComputePipeline,
+    groups: [BindGroup; 3],
+    width: u32,
 }
 
 /// The compiled ray query of `shaders/wgsl/root/intersect.wgsl`.
@@ -41,37 +71,97 @@ pub(super) struct QueryPipeline {
     pub(super) query_layout: BindGroupLayout,
 }
 
-/// What `render` reads and writes.
-#[derive(Debug)]
-pub(super) struct Bindings {
-    pub(super) scene: BindGroup,
-    pub(super) film: BindGroup,
-    pub(super) textures: BindGroup,
+impl SceneGroup {
+    /// Core WebGPU guarantees eight storage buffers a stage, and what a layout names counts whether a
+    /// kernel reads it or not: so `numbers` names what it reads.
+    pub(super) fn new(
+        device: &Device,
+        scene: &SceneBuffers,
+        pass: &Buffer,
+        numbers: &[u32],
+    ) -> Self {
+        let buffers = scene.bindings(pass);
+        let layout: Vec<BindGroupLayoutEntry> = numbers
+            .iter()
+            .map(|&number| buffer_entry(number, SCENE_BINDINGS[number as usize]))
+            .collect();
+        let layout = layout_of(device, "vtex scene", &layout);
+        let entries: Vec<BindGroupEntry<'_>> = numbers
+            .iter()
+            .map(|&binding| BindGroupEntry {
+                binding,
+                resource: buffers[binding as usize].as_entire_binding(),
+            })
+            .collect();
+        Self {
+            group: group_of(device, &layout, &entries),
+            layout,
+        }
+    }
 }
 
-impl Pipelines {
-    pub(super) async fn new(device: &Device, texture_features: u32) -> Result<Self, RuntimeError> {
-        let context = vtex_shaders::scene_context(texture_features, TEXTURE_SLOT);
+impl BufferGroup {
+    pub(super) fn new(
+        device: &Device,
+        label: &str,
+        types: &[BufferBindingType],
+        buffers: &[&Buffer],
+    ) -> Self {
+        let layout = buffers_layout(device, label, types);
+        Self {
+            group: group(device, &layout, buffers),
+            layout,
+        }
+    }
+
+    /// The sums of samples and the counts of rays.
+    pub(super) fn film(device: &Device, film: [&Buffer; 2]) -> Self {
+        Self::new(device, "vtex film", FILM_GROUP, &film)
+    }
+}
+
+impl SingleKernel {
+    pub(super) async fn new(device: &Device, inputs: Inputs<'_>) -> Result<Self, RuntimeError> {
+        let scene = inputs.scene;
+        let context = vtex_shaders::scene_context(scene.texture_features(), TEXTURE_SLOT);
         let wgsl = linked("root/render", &context)?;
         compiled(device, "path tracer", || {
-            let scene_layout = buffers_layout(device, "vtex scene", SCENE_GROUP);
-            let film_layout = buffers_layout(device, "vtex film", FILM_GROUP);
+            let scene_group = SceneGroup::new(device, scene, inputs.pass, EVERYTHING);
+            let film = BufferGroup::film(device, inputs.film);
             let entries = Uploaded::layout_entries(TEXTURE_SLOT.binding, ShaderStages::COMPUTE);
             let texture_layout = layout_of(device, "vtex textures", &entries);
-            let groups = [&scene_layout, &film_layout, &texture_layout];
+            let texture_entries = scene.textures().entries(TEXTURE_SLOT.binding);
+            let textures = group_of(device, &texture_layout, &texture_entries);
+            let layouts = [&scene_group.layout, &texture_layout, &film.layout];
             Ok(Self {
-                render: pipeline(device, &wgsl, "render", &groups),
-                scene_layout,
-                film_layout,
-                texture_layout,
+                render: pipeline(device, &wgsl, "render", &layouts),
+                groups: [scene_group.group, textures, film.group],
+                width: inputs.size[0],
             })
         })
         .await
     }
+
+    pub(super) fn record(
+        &self,
+        encoder: &mut CommandEncoder,
+        record: &PassRecord,
+        timestamps: Option<ComputePassTimestampWrites<'_>>,
+    ) {
+        let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor {
+            label: Some("vtex render"),
+            timestamp_writes: timestamps,
+        });
+        pass.set_pipeline(&self.render);
+        for (number, group) in (0..).zip(&self.groups) {
+            pass.set_bind_group(number, group, &[]);
+        }
+        // Workgroups of 8 by 8, see `root/render.wgsl`, which drops what lies outside.
+        pass.dispatch_workgroups(self.width.div_ceil(8), record.row_count.div_ceil(8), 1);
+    }
 }
 
 impl QueryPipeline {
-    /// Its group 0 is the path tracer's.
     pub(super) async fn new(
         device: &Device,
         scene_layout: &BindGroupLayout,
@@ -87,28 +177,6 @@ impl QueryPipeline {
             })
         })
         .await
-    }
-}
-
-impl Bindings {
-    /// To be called in [`checked`](crate::device::checked).
-    pub(super) fn new(
-        device: &Device,
-        pipelines: &Pipelines,
-        scene: &SceneBuffers,
-        pass: &Buffer,
-        film_sum: &Buffer,
-        film_rays: &Buffer,
-    ) -> Self {
-        Self {
-            scene: group(device, &pipelines.scene_layout, &scene.bindings(pass)),
-            film: group(device, &pipelines.film_layout, &[film_sum, film_rays]),
-            textures: group_of(
-                device,
-                &pipelines.texture_layout,
-                &scene.textures().entries(TEXTURE_SLOT.binding),
-            ),
-        }
     }
 }
 
@@ -131,7 +199,7 @@ pub(super) fn group(device: &Device, layout: &BindGroupLayout, buffers: &[&Buffe
     group_of(device, layout, &entries)
 }
 
-fn group_of(
+pub(super) fn group_of(
     device: &Device,
     layout: &BindGroupLayout,
     entries: &[BindGroupEntry<'_>],
@@ -143,7 +211,7 @@ fn group_of(
     })
 }
 
-fn pipeline(
+pub(super) fn pipeline(
     device: &Device,
     wgsl: &str,
     entry_point: &str,
@@ -153,6 +221,6 @@ fn pipeline(
     kernel(device, "vtex tracer", source, entry_point, groups)
 }
 
-fn linked(root: &str, context: &LinkContext) -> Result<String, RuntimeError> {
+pub(super) fn linked(root: &str, context: &LinkContext) -> Result<String, RuntimeError> {
     vtex_shaders::link(root, context).map_err(|error| RuntimeError::Shader(error.to_string()))
 }

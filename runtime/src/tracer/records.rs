@@ -43,7 +43,7 @@ pub(crate) struct MaterialRecord {
     pub(crate) surface: u32,
     pub(crate) texture_word: u32,
     pub(crate) light: u32,
-    pub(crate) reserved0: u32,
+    pub(crate) texture_queue: u32,
     pub(crate) reserved1: u32,
     pub(crate) reserved2: u32,
 }
@@ -136,7 +136,7 @@ mod tests {
             AttributeRecord { normal0_u, normal1_u, normal2_u, v_material }
             MaterialRecord {
                 base_color, emission, backing, metallic, ggx_alpha, surface, texture_word, light,
-                reserved0, reserved1, reserved2,
+                texture_queue, reserved1, reserved2,
             }
             LightRecord { corner, edge_u, edge_v, normal_area, radiance }
             FrameRecord {

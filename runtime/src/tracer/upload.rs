@@ -4,6 +4,7 @@ use glam::{Affine3A, Vec3, Vec3A, Vec4};
 use obvhs::triangle::Triangle;
 use wgpu::{Buffer, BufferUsages, Device, Queue};
 
+use super::queues::TextureQueues;
 use super::records::{
     AttributeRecord, FrameRecord, LightRecord, MaterialRecord, NONE, SURFACE_DIFFUSE,
     SURFACE_GLOSSY, TriangleRecord,
@@ -16,7 +17,7 @@ use crate::scene::{
     Camera, Instance, MAX_LIGHTS, MAX_TRIANGLES, Material, RectLight, Scene, Surface,
 };
 
-/// Deepest hierarchy the shader's stack holds; see `BVH_STACK_SIZE` there.
+/// Deepest hierarchy the shader's stack holds; see `STACK_SIZE` there.
 const MAX_BVH_DEPTH: usize = 32;
 /// GGX turns into a mirror below this, and f32 loses its peak.
 const MIN_GGX_ALPHA: f32 = 0.001;
@@ -32,6 +33,9 @@ pub(super) struct SceneBuffers {
     materials: Buffer,
     textures: Uploaded,
     texture_features: u32,
+    texture_places: Vec<[u32; 2]>,
+    queues: TextureQueues,
+    has_veils: bool,
     source_triangles: Vec<u32>,
 }
 
@@ -40,6 +44,8 @@ pub(super) struct SceneBuffers {
 struct World {
     triangles: Vec<Triangle>,
     attributes: Vec<AttributeRecord>,
+    /// Whether each may let rays through.
+    is_veil: Vec<bool>,
 }
 
 impl SceneBuffers {
@@ -62,14 +68,19 @@ impl SceneBuffers {
         let order = &bvh.primitive_indices;
         let triangles: Vec<TriangleRecord> = order
             .iter()
-            .map(|&i| TriangleRecord::from(&world.triangles[i as usize]))
+            .map(|&i| TriangleRecord::new(&world.triangles[i as usize], world.is_veil[i as usize]))
             .collect();
         let attributes: Vec<AttributeRecord> = order
             .iter()
             .map(|&i| world.attributes[i as usize])
             .collect();
         let packed = PackedTextures::new(&scene.textures)?;
-        let materials = material_records(scene, &packed.set.first_words);
+        let queues = TextureQueues::new(&scene.textures, options.trust);
+        let lookups: Vec<[u32; 2]> = (packed.places.iter().map(|[first, _]| *first))
+            .zip(queues.of_texture.iter().copied())
+            .map(<[u32; 2]>::from)
+            .collect();
+        let materials = material_records(scene, &lookups);
         let frame_record = frame_record(scene, size, options, &triangles)?;
         checked(device, "scene", || {
             let filled =
@@ -83,15 +94,18 @@ impl SceneBuffers {
                 triangles: storage("vtex triangles", bytemuck::cast_slice(&triangles))?,
                 attributes: storage("vtex attributes", bytemuck::cast_slice(&attributes))?,
                 materials: storage("vtex materials", bytemuck::cast_slice(&materials))?,
-                textures: Uploaded::new(device, queue, &packed.set.words, &packed.set.texels)?,
+                textures: Uploaded::new(device, queue, &packed.words, &packed.texels)?,
                 texture_features: packed.features,
+                texture_places: packed.places,
+                queues,
+                has_veils: world.is_veil.contains(&true),
                 source_triangles: bvh.primitive_indices,
             })
         })
         .await
     }
 
-    /// In the order of group 0 of `root/render.wgsl`.
+    /// In the order of `trace/bindings.wgsl`.
     pub(super) fn bindings<'a>(&'a self, pass: &'a Buffer) -> [&'a Buffer; 6] {
         [
             &self.frame,
@@ -110,6 +124,20 @@ impl SceneBuffers {
     /// Union of the textures' features: what the evaluator has to contain.
     pub(super) fn texture_features(&self) -> u32 {
         self.texture_features
+    }
+
+    /// First word of a texture and how many it has.
+    pub(super) fn texture(&self, index: usize) -> Option<[u32; 2]> {
+        self.texture_places.get(index).copied()
+    }
+
+    pub(super) fn queues(&self) -> &TextureQueues {
+        &self.queues
+    }
+
+    /// Whether any surface may let rays through.
+    pub(super) fn has_veils(&self) -> bool {
+        self.has_veils
     }
 
     pub(super) fn triangle_count(&self) -> u32 {
@@ -161,6 +189,8 @@ impl World {
 
     fn place(&mut self, scene: &Scene, instance: &Instance) {
         let mesh = &scene.meshes[instance.mesh];
+        let material = &scene.materials[instance.material];
+        let is_veil = material.texture.is_some() && material.backing.is_none();
         let to_world = Affine3A::from_cols_array_2d(&instance.world_from_object);
         // Inverse transpose: normals stay at right angles to surfaces that are stretched. A matrix
         // without an inverse gives no numbers, and those become normals of length 0.
@@ -176,6 +206,7 @@ impl World {
             });
             let uvs = corners.map(|i| mesh.uvs[i]);
             self.triangles.push(triangle);
+            self.is_veil.push(is_veil);
             self.attributes.push(attribute_record(
                 [0, 1, 2].map(|k| normals[k].extend(uvs[k][0])),
                 uvs.map(|[_, v]| v),
@@ -195,6 +226,7 @@ impl World {
             [at(0.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)],
         ] {
             self.triangles.push(bvh::triangle(corners));
+            self.is_veil.push(false);
             self.attributes.push(attribute_record(
                 [normal.extend(0.0); 3],
                 [0.0; 3],
@@ -216,11 +248,12 @@ fn attribute_record(normal_u: [Vec4; 3], [v0, v1, v2]: [f32; 3], material: u32) 
     }
 }
 
-impl From<&Triangle> for TriangleRecord {
-    fn from(triangle: &Triangle) -> Self {
+impl TriangleRecord {
+    fn new(triangle: &Triangle, is_veil: bool) -> Self {
         let word = |v: Vec3A| v.extend(0.0).to_array();
+        let veil = if is_veil { 1.0 } else { 0.0 };
         Self {
-            v0: word(triangle.v0),
+            v0: triangle.v0.extend(veil).to_array(),
             // Signs and operations as in obvhs, whose CPU traversal must give the same bits.
             edge1: word(triangle.v0 - triangle.v1),
             edge2: word(triangle.v2 - triangle.v0),
@@ -229,22 +262,25 @@ impl From<&Triangle> for TriangleRecord {
 }
 
 /// The scene's materials, then one for each light.
-fn material_records(scene: &Scene, texture_words: &[u32]) -> Vec<MaterialRecord> {
+/// `lookups`: of each texture its first word and its queue.
+fn material_records(scene: &Scene, lookups: &[[u32; 2]]) -> Vec<MaterialRecord> {
     let surfaces = scene
         .materials
         .iter()
-        .map(|material| material_record(material, texture_words));
+        .map(|material| material_record(material, lookups));
     let lights = (0..)
         .zip(&scene.lights)
         .map(|(index, light)| MaterialRecord {
             emission: color(light.radiance),
             light: index,
-            ..material_record(&Material::default(), texture_words)
+            ..material_record(&Material::default(), lookups)
         });
     surfaces.chain(lights).collect()
 }
 
-fn material_record(material: &Material, texture_words: &[u32]) -> MaterialRecord {
+fn material_record(material: &Material, lookups: &[[u32; 2]]) -> MaterialRecord {
+    let lookup = material.texture.map(|index| lookups[index]);
+    let [texture_word, texture_queue] = lookup.unwrap_or([NONE, 0]);
     let (metallic, roughness) = material.surface.parameters();
     MaterialRecord {
         base_color: color(material.base_color),
@@ -259,9 +295,9 @@ fn material_record(material: &Material, texture_words: &[u32]) -> MaterialRecord
             Surface::Diffuse => SURFACE_DIFFUSE,
             Surface::Glossy { .. } => SURFACE_GLOSSY,
         },
-        texture_word: material.texture.map_or(NONE, |index| texture_words[index]),
+        texture_word,
         light: NONE,
-        reserved0: 0,
+        texture_queue,
         reserved1: 0,
         reserved2: 0,
     }

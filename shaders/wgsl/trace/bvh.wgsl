@@ -1,5 +1,6 @@
 //!use trace/bindings
 //!use trace/ray
+//!use trace/stack
 // Closest hit in a compressed wide BVH: Ylitie, Karras, Laine, Efficient Incoherent Ray Traversal
 // on GPUs Through Compressed Wide BVHs, HPG 2017. Node layout and order of visits are those of
 // the obvhs crate, whose CPU traversal gives the same hit to the bit where the device rounds
@@ -10,8 +11,6 @@
 //   1  first child node, first triangle, 8 bytes of child meta
 //   2  lower x of 8 children, upper x of 8 children;  3, 4  the same for y, z
 
-// Depth of the stack, as in obvhs; the host refuses deeper trees.
-const BVH_STACK_SIZE: u32 = 32u;
 // Node visits a ray may take. Some software drivers stop any loop at 65,535 rounds without a
 // word; this ends before. Real scenes take tens to hundreds.
 const BVH_MAX_VISITS: u32 = 16384u;
@@ -108,22 +107,37 @@ fn bvh_hit_triangle(index: u32, ray: Ray, hit: Hit) -> Hit {
     return hit;
 }
 
+// Whether a triangle may let rays through. Other ones stop a shadow ray wherever they are met.
+fn bvh_is_veil(triangle: u32) -> bool {
+    return trace_triangles[triangle].v0.w != 0.0;
+}
+
 // The nearest triangle nearer than ray.t_max, or a miss.
 fn bvh_closest(ray: Ray) -> Hit {
+    return bvh_traverse(ray, false);
+}
+
+// For shadow rays: any triangle nearer than ray.t_max that stops all rays; where none does, the nearest
+// of the others, or a miss.
+fn bvh_any(ray: Ray) -> Hit {
+    return bvh_traverse(ray, true);
+}
+
+fn bvh_traverse(ray: Ray, any_hit: bool) -> Hit {
     var hit = Hit(ray.t_max, TRACE_NONE, vec2f(0.0));
     if trace_frame.triangle_count == 0u {
         return hit;
     }
     let octant_inverse4 = bvh_octant_inverse4(ray.direction);
-    var stack: array<vec2u, 32>;
+    var stack: Stack;
     var stack_size = 0u;
     var nodes = vec2u(0u, 0x80000000u);
     for (var visit = 0u; visit < BVH_MAX_VISITS; visit++) {
         let offset = firstLeadingBit(nodes.y);
         let inner_mask = nodes.y;
         nodes.y &= ~(1u << offset);
-        if nodes.y > 0x00ffffffu && stack_size < BVH_STACK_SIZE {
-            stack[stack_size] = nodes;
+        if nodes.y > 0x00ffffffu && stack_size < STACK_SIZE {
+            stack_put(&stack, stack_size, nodes);
             stack_size += 1u;
         }
         let slot = (offset - 24u) ^ (octant_inverse4 & 0xffu);
@@ -136,13 +150,16 @@ fn bvh_closest(ray: Ray) -> Hit {
             let local = firstLeadingBit(triangles);
             triangles &= ~(1u << local);
             hit = bvh_hit_triangle(found.z + local, ray, hit);
+            if any_hit && hit.triangle != TRACE_NONE && !bvh_is_veil(hit.triangle) {
+                return hit;
+            }
         }
         if nodes.y <= 0x00ffffffu {
             if stack_size == 0u {
                 break;
             }
             stack_size -= 1u;
-            nodes = stack[stack_size];
+            nodes = stack_get(&stack, stack_size);
         }
     }
     return hit;

@@ -23,3 +23,8 @@ fn camera_ray(position: vec2f) -> Ray {
         - ndc.y * trace_frame.camera_up.xyz;
     return ray_new(trace_frame.camera_position.xyz, normalize(direction), RAY_INFINITY);
 }
+
+// The ray of a sample of a pixel: `place` is its column and row, `pixel` its number.
+fn camera_sample_ray(place: vec2u, pixel: u32, sample_index: u32) -> Ray {
+    return camera_ray(vec2f(place) + camera_jitter(trace_frame.seed, pixel, sample_index));
+}

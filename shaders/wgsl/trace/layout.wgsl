@@ -14,6 +14,7 @@ const LIGHT_SAMPLING_MIS: u32 = 0u;
 const LIGHT_SAMPLING_SCATTER: u32 = 1u;
 
 // The part of a triangle that intersection reads, 48 bytes. edge1 = v0 - v1, edge2 = v2 - v0.
+// v0.w is not 0 where the triangle may let rays through.
 struct TriangleRecord {
     v0: vec4f,
     edge1: vec4f,
@@ -41,7 +42,8 @@ struct MaterialRecord {
     texture_word: u32,
     // Index of the area light this surface is, or TRACE_NONE.
     light: u32,
-    reserved0: u32,
+    // Which queue the stages put its lookups into.
+    texture_queue: u32,
     reserved1: u32,
     reserved2: u32,
 }

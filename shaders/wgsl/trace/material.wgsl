@@ -1,6 +1,4 @@
-//!use vtex/sample
-//!use trace/bindings
-//!use trace/surface
+//!use trace/layout
 // A surface's own colours.
 
 struct MaterialColor {
@@ -10,12 +8,12 @@ struct MaterialColor {
     alpha: f32,
 }
 
-fn material_color(material: MaterialRecord, point: SurfacePoint) -> MaterialColor {
+// `texel` is what the material's texture shows; it is not read where there is none.
+fn material_color(material: MaterialRecord, texel: vec4f) -> MaterialColor {
     // Without a texture a backing is never seen.
     if material.texture_word == TRACE_NONE {
         return MaterialColor(material.base_color.xyz, 1.0);
     }
-    let texel = vtex_sample_at(material.texture_word, point.uv, point.footprint);
     if material.backing.w > 0.0 {
         let backed = texel.rgb * material.base_color.xyz + (1.0 - texel.a) * material.backing.xyz;
         return MaterialColor(backed, 1.0);

@@ -9,6 +9,7 @@
 
 mod awaited;
 mod batch;
+mod staged;
 
 use vtex_format::{CellWord, Grid, Meta, PaintRecord, VtexFile};
 use vtex_runtime::{

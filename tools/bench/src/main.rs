@@ -191,6 +191,11 @@ impl Run {
         }
         if self.args.wants(Part::Rays) {
             let effort = self.until(RAYS_END);
+            let files: Vec<_> = subjects
+                .iter()
+                .map(|subject| (subject.name.clone(), subject.file.clone()))
+                .collect();
+            report.add_all(tables::staged_tables(device, &files, effort)?)?;
             let subjects: Vec<(&Path, &Subject)> = self
                 .paths
                 .iter()

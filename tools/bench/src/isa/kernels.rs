@@ -122,7 +122,20 @@ pub(crate) fn of_files(files: &[VtexFile]) -> Vec<Kernel> {
         .collect()
 }
 
-/// The fragment in a fragment stage, as users embed it, and the kernels of the path tracer.
+/// Stages of the path tracer, in the order of a round; their modules are `stage/` and the name.
+const STAGES: [&str; 8] = [
+    "generate",
+    "hit",
+    "surface",
+    "shade",
+    "shadow",
+    "arguments",
+    "advance",
+    "film",
+];
+
+/// The fragment in a fragment stage, as users embed it, and the kernels of the path tracer: all in one,
+/// then in stages.
 pub(crate) fn fragment_and_tracer() -> Result<Vec<Kernel>> {
     let mut kernels = Vec::new();
     for (name, features) in FEW {
@@ -136,7 +149,7 @@ pub(crate) fn fragment_and_tracer() -> Result<Vec<Kernel>> {
             });
             // Where the runtime binds a scene's textures.
             let slot = BindingSlot {
-                group: 2,
+                group: 1,
                 binding: 0,
             };
             let context = scene_context(features, slot);
@@ -153,6 +166,23 @@ pub(crate) fn fragment_and_tracer() -> Result<Vec<Kernel>> {
     });
     // The fragments first, then the tracer.
     kernels.sort_by_key(|kernel| kernel.name.split(',').next().map(str::to_owned));
+    for stage in STAGES {
+        let context = LinkContext::default().fill("trace/stack", "state/stack");
+        let text = link(&format!("stage/{stage}"), &context);
+        kernels.push(Kernel {
+            name: format!("stage {stage}"),
+            wgsl: text.with_context(|| format!("the stage {stage} does not link"))?,
+        });
+    }
+    for (name, features) in NAMED {
+        for (mode, filter) in modes(features & !Features::MSDF) {
+            let context = scene_context(features | feature_of(filter), BindingSlot::default());
+            kernels.push(Kernel {
+                name: format!("stage lookups, {name}, {mode}"),
+                wgsl: link("stage/lookup", &context).context("the lookups do not link")?,
+            });
+        }
+    }
     Ok(kernels)
 }
 

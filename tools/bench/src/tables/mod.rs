@@ -19,7 +19,7 @@ pub(crate) use load::load_table;
 pub(crate) use lookups::{count_table, cpu_tables, gpu_tables};
 pub(crate) use parity::parity_table;
 pub(crate) use processes::{process_tables, rasterise_to_png};
-pub(crate) use rays::rays_table;
+pub(crate) use rays::{rays_table, staged_tables};
 pub(crate) use rivals::{check_queries, fetch_table, minified_table, sfg22_table};
 pub(crate) use set::set_tables;
 pub(crate) use sizes::size_tables;

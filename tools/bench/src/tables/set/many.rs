@@ -9,7 +9,10 @@ use vtex_runtime::{TextureHandle, TextureQuery};
 const WINDOW: f32 = 1.0 / 8.0;
 
 /// The bytes of `count` files: those there are, then the same with other single colours.
-pub(super) fn changed(files: &[(String, VtexFile)], count: usize) -> Result<Vec<Vec<u8>>> {
+pub(in crate::tables) fn changed(
+    files: &[(String, VtexFile)],
+    count: usize,
+) -> Result<Vec<Vec<u8>>> {
     anyhow::ensure!(!files.is_empty(), "no files to measure with");
     let change = |index: usize| {
         let (name, file) = &files[index % files.len()];

@@ -16,7 +16,7 @@ use super::compared;
 use crate::report::{Cell, Table};
 use crate::timing::{Device, Effort, Kernel, Screen, Spread, Timing, Trial, interleave};
 
-use many::changed;
+pub(super) use many::changed;
 
 /// How many textures share a pipeline, and how.
 const ROWS: [Row; 6] = [

@@ -1,5 +1,7 @@
 //! Rays per second of the path tracer, with and without textures.
 
+mod staged;
+
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -8,6 +10,8 @@ use vtex_baker::Resources;
 use vtex_format::{CellWord, Entry, EntryKind, Grid, Image, SpecKey, VtexFile};
 use vtex_runtime::{LoadOptions, Scene, TraceOptions, Tracer, scene};
 use vtex_scenes::showroom;
+
+pub(crate) use staged::staged_tables;
 
 use super::{compared, left_out};
 use crate::report::{Cell, Table};

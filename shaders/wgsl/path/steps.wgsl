@@ -1,0 +1,205 @@
+//!use trace/bindings
+//!use trace/ray
+//!use trace/cone
+//!use trace/surface
+//!use trace/material
+//!use trace/bsdf
+//!use trace/light
+//!use trace/rng
+// The steps of a path: Kajiya 1986, with next-event estimation and multiple importance sampling
+// (Veach 1997). One kernel takes them in a loop (path/integrator), or each stage takes one (stage/).
+
+// See-through surfaces that a path and its shadow rays pass in all; behind them it is dark.
+const PATH_MAX_VEILS: u32 = 64u;
+// Scatterings after which paths may end by chance (Russian roulette).
+const PATH_ROULETTE_AFTER: u32 = 3u;
+
+// Where a path is and what it has gathered.
+struct PathState {
+    ray: Ray,
+    cone: Cone,
+    throughput: vec3f,
+    scatterings: u32,
+    // Density of the last scattering, per solid angle.
+    scatter_pdf: f32,
+    // Length since the last scattering: see-through surfaces do not end a straight line.
+    travelled: f32,
+    // See-through surfaces that it and its shadow rays passed.
+    veils: u32,
+    ray_count: u32,
+    // Radiance, and opacity of the scene in w.
+    color: vec4f,
+}
+
+// A ray from a surface to a light.
+struct ShadowRay {
+    origin: vec3f,
+    direction: vec3f,
+    // What is left to go; 0 where no ray is wanted.
+    left: f32,
+    // The whole way.
+    distance: f32,
+    // What the path gains where nothing is in the way, not clamped.
+    radiance: vec3f,
+    // Share that the surfaces passed so far let through.
+    share: f32,
+    // Where the ray starts.
+    cone: Cone,
+    // Scatterings of the light that it brings.
+    scatterings: u32,
+}
+
+fn path_new(ray: Ray, cone: Cone) -> PathState {
+    return PathState(ray, cone, vec3f(1.0), 0u, 0.0, 0.0, 0u, 0u, vec4f(0.0, 0.0, 0.0, 1.0));
+}
+
+// Light that scattered twice or more is clamped to trace_frame.indirect_clamp, which trades a
+// little energy for far fewer fireflies; light seen directly or after one scattering is not.
+fn path_clamped(color: vec3f, scatterings: u32) -> vec3f {
+    let peak = max(color.x, max(color.y, color.z));
+    if scatterings < 2u || peak <= trace_frame.indirect_clamp {
+        return color;
+    }
+    return color * (trace_frame.indirect_clamp / peak);
+}
+
+fn path_add(path: PathState, radiance: vec3f) -> vec4f {
+    return path.color + vec4f(path_clamped(path.throughput * radiance, path.scatterings), 0.0);
+}
+
+// What the sky gives to a path that met nothing.
+fn path_escape(path: PathState) -> vec4f {
+    if path.scatterings == 0u && trace_frame.transparent_background == 1u {
+        return vec4f(path.color.xyz, 0.0);
+    }
+    return path_add(path, light_sky(path.ray.direction));
+}
+
+// Moves a path to the surface that it met.
+fn path_arrive(path: ptr<function, PathState>, distance: f32) {
+    (*path).cone = cone_at((*path).cone, distance);
+    (*path).travelled += distance;
+}
+
+// Sends a path straight through a surface; false when it ends here.
+fn path_pass(path: ptr<function, PathState>, point: SurfacePoint) -> bool {
+    let behind = ray_offset(point.position, -point.geometric_normal);
+    (*path).ray = ray_new(behind, (*path).ray.direction, RAY_INFINITY);
+    (*path).veils += 1u;
+    return (*path).veils <= PATH_MAX_VEILS;
+}
+
+// Weight of an area light that a scattered ray met by chance.
+fn path_light_weight(path: PathState, light: u32) -> f32 {
+    if path.scatterings == 0u || trace_frame.light_sampling == LIGHT_SAMPLING_SCATTER {
+        return 1.0;
+    }
+    return light_mis_weight(path.scatter_pdf, light_pdf(light, path.ray.direction, path.travelled));
+}
+
+// What the surface's own light gives.
+fn path_emission(path: PathState, material: MaterialRecord, point: SurfacePoint) -> vec4f {
+    if material.light == TRACE_NONE {
+        return path_add(path, material.emission.xyz);
+    }
+    if !point.front {
+        return path.color;
+    }
+    return path_add(path, material.emission.xyz * path_light_weight(path, material.light));
+}
+
+// How a surface scatters what comes along the path, seen from its shading normal.
+struct PathLobes {
+    frame: mat3x3f,
+    out_local: vec3f,
+    bsdf: Bsdf,
+}
+
+fn path_lobes(path: PathState, material: MaterialRecord, point: SurfacePoint, base_color: vec3f) -> PathLobes {
+    let frame = bsdf_frame(point.shading_normal);
+    let out_local = -path.ray.direction * frame;
+    return PathLobes(frame, out_local, bsdf_new(material, base_color, out_local));
+}
+
+// Whether a path ends at a surface whose own light it has.
+fn path_ends(path: PathState, material: MaterialRecord) -> bool {
+    return material.light != TRACE_NONE || path.scatterings >= trace_frame.max_bounces;
+}
+
+// A ray to a point on an area light, if that can light the surface.
+fn path_shadow_ray(path: PathState, point: SurfacePoint, lobes: PathLobes, stream: ptr<function, u32>) -> ShadowRay {
+    var shadow: ShadowRay;
+    if trace_frame.light_count == 0u || trace_frame.light_sampling != LIGHT_SAMPLING_MIS {
+        return shadow;
+    }
+    let choice = rng_next(stream);
+    shadow.origin = ray_offset(point.position, point.geometric_normal);
+    let light = light_sample(shadow.origin, choice, rng_next2(stream));
+    if light.pdf <= 0.0 || dot(light.direction, point.geometric_normal) <= 0.0 {
+        return shadow;
+    }
+    let into_local = light.direction * lobes.frame;
+    let value = bsdf_evaluate(lobes.bsdf, lobes.out_local, into_local);
+    if all(value <= vec3f(0.0)) {
+        return shadow;
+    }
+    let scatter_pdf = bsdf_pdf(lobes.bsdf, lobes.out_local, into_local);
+    let weight = light_mis_weight(light.pdf, scatter_pdf) / light.pdf;
+    shadow.direction = light.direction;
+    // Stop short of the light, which is itself in the BVH.
+    shadow.distance = light.distance * 0.9999;
+    shadow.left = shadow.distance;
+    shadow.radiance = path.throughput * value * light.radiance * weight;
+    shadow.share = 1.0;
+    shadow.cone = path.cone;
+    shadow.scatterings = path.scatterings + 1u;
+    return shadow;
+}
+
+// What a shadow ray brings that nothing stopped.
+fn path_lit(color: vec4f, shadow: ShadowRay) -> vec4f {
+    return color + vec4f(path_clamped(shadow.radiance * shadow.share, shadow.scatterings), 0.0);
+}
+
+// The cone where a shadow ray met something.
+fn path_shadow_cone(shadow: ShadowRay, distance: f32) -> Cone {
+    return cone_at(shadow.cone, shadow.distance - shadow.left + distance);
+}
+
+// Sends a shadow ray through a surface; false when nothing is left of it.
+fn path_shadow_pass(shadow: ptr<function, ShadowRay>, point: SurfacePoint, distance: f32, alpha: f32) -> bool {
+    (*shadow).share *= 1.0 - alpha;
+    (*shadow).origin = ray_offset(point.position, -point.geometric_normal);
+    (*shadow).left -= distance;
+    return (*shadow).share > 0.0 && (*shadow).left > 0.0;
+}
+
+// Sends the path on in a random direction; false when it ends here.
+fn path_scatter(
+    path: ptr<function, PathState>,
+    point: SurfacePoint,
+    lobes: PathLobes,
+    stream: ptr<function, u32>,
+) -> bool {
+    let scattered = bsdf_sample(lobes.bsdf, lobes.out_local, stream);
+    let direction = lobes.frame * scattered.direction;
+    // Shading normals may send light through the surface: it ends there.
+    if scattered.pdf <= 0.0 || dot(direction, point.geometric_normal) <= 0.0 {
+        return false;
+    }
+    (*path).throughput *= scattered.weight;
+    (*path).scatterings += 1u;
+    (*path).scatter_pdf = scattered.pdf;
+    (*path).travelled = 0.0;
+    (*path).cone = cone_scatter((*path).cone, scattered.pdf, trace_frame.footprint_scale);
+    (*path).ray = ray_new(ray_offset(point.position, point.geometric_normal), direction, RAY_INFINITY);
+    if (*path).scatterings > PATH_ROULETTE_AFTER {
+        let left = (*path).throughput;
+        let survive = min(max(left.x, max(left.y, left.z)), 0.95);
+        if rng_next(stream) >= survive {
+            return false;
+        }
+        (*path).throughput = left / survive;
+    }
+    return true;
+}
