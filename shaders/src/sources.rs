@@ -33,6 +33,7 @@ sources! {
     "trace/ray",
     "trace/rng",
     "trace/surface",
+    "trace/world/instance",
     "vtex/blend",
     "vtex/cell",
     "vtex/cell_level",

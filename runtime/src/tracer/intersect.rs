@@ -108,7 +108,10 @@ impl Tracer {
     fn hit(&self, record: HitRecord) -> Option<RayHit> {
         (record.triangle != NONE).then(|| RayHit {
             t: record.t,
-            triangle: self.scene.source_triangle(record.triangle),
+            triangle: self
+                .scene
+                .world()
+                .source_triangle(record.triangle, record.instance),
         })
     }
 }

@@ -1,23 +1,18 @@
 //! A scene as buffers on the device.
 
-use glam::{Affine3A, Vec3, Vec3A, Vec4};
-use obvhs::triangle::Triangle;
+use glam::Vec3;
 use wgpu::{Buffer, BufferUsages, Device, Queue};
 
+use super::TraceOptions;
 use super::records::{
-    AttributeRecord, FrameRecord, LightRecord, MaterialRecord, NONE, SURFACE_DIFFUSE,
-    SURFACE_GLOSSY, TriangleRecord,
+    FrameRecord, LightRecord, MaterialRecord, NONE, SURFACE_DIFFUSE, SURFACE_GLOSSY,
 };
 use super::textures::PackedTextures;
-use super::{TraceOptions, bvh};
+use super::world::{World, index_u32};
 use crate::RuntimeError;
 use crate::device::{Uploaded, checked, filled_buffer};
-use crate::scene::{
-    Camera, Instance, MAX_LIGHTS, MAX_TRIANGLES, Material, RectLight, Scene, Surface,
-};
+use crate::scene::{Camera, MAX_LIGHTS, Material, RectLight, Scene, Surface};
 
-/// Deepest hierarchy the shader's stack holds; see `BVH_STACK_SIZE` there.
-const MAX_BVH_DEPTH: usize = 32;
 /// GGX turns into a mirror below this, and f32 loses its peak.
 const MIN_GGX_ALPHA: f32 = 0.001;
 
@@ -32,14 +27,8 @@ pub(super) struct SceneBuffers {
     materials: Buffer,
     textures: Uploaded,
     texture_features: u32,
-    source_triangles: Vec<u32>,
-}
-
-/// All triangles in world space with what shading needs, in scene order.
-#[derive(Debug, Default)]
-struct World {
-    triangles: Vec<Triangle>,
-    attributes: Vec<AttributeRecord>,
+    /// Numbers of triangles; what was uploaded is not kept.
+    world: World,
 }
 
 impl SceneBuffers {
@@ -50,27 +39,10 @@ impl SceneBuffers {
         size: [u32; 2],
         options: &TraceOptions,
     ) -> Result<Self, RuntimeError> {
-        let world = World::new(scene)?;
-        let bvh = bvh::build(&world.triangles);
-        let depth = bvh::depth(&bvh);
-        if depth > MAX_BVH_DEPTH {
-            return Err(RuntimeError::Limit(format!(
-                "BVH of {depth} levels: is the mesh degenerate?"
-            )));
-        }
-        // In the order of the hierarchy, so that a leaf is a first index and a count.
-        let order = &bvh.primitive_indices;
-        let triangles: Vec<TriangleRecord> = order
-            .iter()
-            .map(|&i| TriangleRecord::from(&world.triangles[i as usize]))
-            .collect();
-        let attributes: Vec<AttributeRecord> = order
-            .iter()
-            .map(|&i| world.attributes[i as usize])
-            .collect();
+        let mut world = World::new(scene)?;
         let packed = PackedTextures::new(&scene.textures)?;
         let materials = material_records(scene, &packed.set.first_words);
-        let frame_record = frame_record(scene, size, options, &triangles)?;
+        let frame_record = frame_record(scene, size, options, world.first_level)?;
         checked(device, "scene", || {
             let filled =
                 |label, bytes: &[u8], usage| filled_buffer(device, queue, label, bytes, usage);
@@ -79,13 +51,16 @@ impl SceneBuffers {
             Ok(Self {
                 frame: filled("vtex frame", frame, BufferUsages::UNIFORM)?,
                 frame_record,
-                nodes: storage("vtex BVH nodes", bytemuck::cast_slice(&bvh.nodes))?,
-                triangles: storage("vtex triangles", bytemuck::cast_slice(&triangles))?,
-                attributes: storage("vtex attributes", bytemuck::cast_slice(&attributes))?,
+                nodes: storage("vtex BVH nodes", bytemuck::cast_slice(&world.nodes))?,
+                triangles: storage("vtex triangles", bytemuck::cast_slice(&world.triangles))?,
+                attributes: storage("vtex attributes", bytemuck::cast_slice(&world.attributes))?,
                 materials: storage("vtex materials", bytemuck::cast_slice(&materials))?,
                 textures: Uploaded::new(device, queue, &packed.set.words, &packed.set.texels)?,
                 texture_features: packed.features,
-                source_triangles: bvh.primitive_indices,
+                world: {
+                    world.free_uploaded();
+                    world
+                },
             })
         })
         .await
@@ -112,16 +87,13 @@ impl SceneBuffers {
         self.texture_features
     }
 
-    pub(super) fn triangle_count(&self) -> u32 {
-        self.frame_record.triangle_count
+    pub(super) fn world(&self) -> &World {
+        &self.world
     }
 
-    /// Scene order of a triangle in BVH order.
-    pub(super) fn source_triangle(&self, index: u32) -> u32 {
-        self.source_triangles
-            .get(index as usize)
-            .copied()
-            .unwrap_or(NONE)
+    /// Bytes of triangles, hierarchies and instances on the device.
+    pub(super) fn geometry_bytes(&self) -> u64 {
+        self.nodes.size() + self.triangles.size() + self.attributes.size()
     }
 
     pub(super) fn set_camera(
@@ -132,99 +104,6 @@ impl SceneBuffers {
         set_camera(&mut self.frame_record, camera)?;
         queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&self.frame_record));
         Ok(())
-    }
-}
-
-impl World {
-    fn new(scene: &Scene) -> Result<Self, RuntimeError> {
-        let mut world = Self::default();
-        // Counted before anything is placed: a small mesh with many instances must not fill memory.
-        let placed: usize = scene
-            .instances
-            .iter()
-            .map(|instance| scene.meshes[instance.mesh].triangles.len())
-            .sum();
-        if placed > MAX_TRIANGLES {
-            return Err(RuntimeError::Limit(format!(
-                "{placed} triangles; a scene holds at most {MAX_TRIANGLES}"
-            )));
-        }
-        for instance in &scene.instances {
-            world.place(scene, instance);
-        }
-        // Each light has a material of its own behind the scene's, see `material_records`.
-        for (light, material) in scene.lights.iter().zip(scene.materials.len()..) {
-            world.place_light(light, index_u32(material));
-        }
-        Ok(world)
-    }
-
-    fn place(&mut self, scene: &Scene, instance: &Instance) {
-        let mesh = &scene.meshes[instance.mesh];
-        let to_world = Affine3A::from_cols_array_2d(&instance.world_from_object);
-        // Inverse transpose: normals stay at right angles to surfaces that are stretched. A matrix
-        // without an inverse gives no numbers, and those become normals of length 0.
-        let normal_to_world = to_world.matrix3.inverse().transpose();
-        for indices in &mesh.triangles {
-            let corners = indices.map(|i| i as usize);
-            let triangle = bvh::triangle(
-                corners.map(|i| to_world.transform_point3a(mesh.positions[i].into())),
-            );
-            let normals = corners.map(|i| {
-                let normal = normal_to_world * Vec3A::from(mesh.normals[i]);
-                normal.normalize_or_zero()
-            });
-            let uvs = corners.map(|i| mesh.uvs[i]);
-            self.triangles.push(triangle);
-            self.attributes.push(attribute_record(
-                [0, 1, 2].map(|k| normals[k].extend(uvs[k][0])),
-                uvs.map(|[_, v]| v),
-                index_u32(instance.material),
-            ));
-        }
-    }
-
-    /// Lights are met by chance too, so they are geometry: two triangles, counter-clockwise seen
-    /// from where they shine.
-    fn place_light(&mut self, light: &RectLight, material: u32) {
-        let [corner, edge_u, edge_v] = light_vectors(light);
-        let normal = edge_u.cross(edge_v).normalize_or_zero();
-        let at = |u: f32, v: f32| Vec3A::from(corner + edge_u * u + edge_v * v);
-        for corners in [
-            [at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0)],
-            [at(0.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)],
-        ] {
-            self.triangles.push(bvh::triangle(corners));
-            self.attributes.push(attribute_record(
-                [normal.extend(0.0); 3],
-                [0.0; 3],
-                material,
-            ));
-        }
-    }
-}
-
-fn attribute_record(normal_u: [Vec4; 3], [v0, v1, v2]: [f32; 3], material: u32) -> AttributeRecord {
-    let [normal0_u, normal1_u, normal2_u] = normal_u.map(|n| n.to_array());
-    AttributeRecord {
-        normal0_u,
-        normal1_u,
-        normal2_u,
-        // The index as bits. The shader only reinterprets them: small ones are denormal numbers, which
-        // arithmetic may flush to zero.
-        v_material: [v0, v1, v2, f32::from_bits(material)],
-    }
-}
-
-impl From<&Triangle> for TriangleRecord {
-    fn from(triangle: &Triangle) -> Self {
-        let word = |v: Vec3A| v.extend(0.0).to_array();
-        Self {
-            v0: word(triangle.v0),
-            // Signs and operations as in obvhs, whose CPU traversal must give the same bits.
-            edge1: word(triangle.v0 - triangle.v1),
-            edge2: word(triangle.v2 - triangle.v0),
-        }
     }
 }
 
@@ -271,7 +150,7 @@ fn frame_record(
     scene: &Scene,
     film_size: [u32; 2],
     options: &TraceOptions,
-    triangles: &[TriangleRecord],
+    first_level: u32,
 ) -> Result<FrameRecord, RuntimeError> {
     let mut lights = [bytemuck::Zeroable::zeroed(); MAX_LIGHTS];
     for (record, light) in lights.iter_mut().zip(&scene.lights) {
@@ -288,7 +167,7 @@ fn frame_record(
         film_width: film_size[0],
         film_height: film_size[1],
         light_count: index_u32(scene.lights.len()),
-        triangle_count: index_u32(triangles.len()),
+        triangle_count: first_level,
         seed: options.seed,
         max_bounces: options.max_bounces,
         light_sampling: options.light_sampling as u32,
@@ -339,9 +218,4 @@ fn vector(v: Vec3) -> [f32; 4] {
 
 fn color([r, g, b]: [f32; 3]) -> [f32; 4] {
     [r, g, b, 0.0]
-}
-
-/// Counts here are bounded by [`MAX_TRIANGLES`] and by memory.
-fn index_u32(index: usize) -> u32 {
-    u32::try_from(index).unwrap_or(NONE)
 }

@@ -1,5 +1,6 @@
 //!use trace/bindings
 //!use trace/ray
+//!use trace/world/instance
 // Closest hit in a compressed wide BVH: Ylitie, Karras, Laine, Efficient Incoherent Ray Traversal
 // on GPUs Through Compressed Wide BVHs, HPG 2017. Node layout and order of visits are those of
 // the obvhs crate, whose CPU traversal gives the same hit to the bit where the device rounds
@@ -9,6 +10,11 @@
 //   0  corner of the box (3 floats), exponents of the three grid steps, mask of inner children
 //   1  first child node, first triangle, 8 bytes of child meta
 //   2  lower x of 8 children, upper x of 8 children;  3, 4  the same for y, z
+//
+// There are two levels: the first hierarchy, in world space, has triangles and instances in its leaves;
+// a mesh that is placed several times has a hierarchy in its own space. A triangle record whose fourth
+// number is not zero stands for an instance and says where its record lies. Scenes without instances
+// are walked as if there were one level.
 
 // Depth of the stack, as in obvhs; the host refuses deeper trees.
 const BVH_STACK_SIZE: u32 = 32u;
@@ -89,7 +95,7 @@ fn bvh_dot(a: vec3f, b: vec3f) -> f32 {
 }
 
 // Moeller and Trumbore 1997, in the form of obvhs. Keeps `hit` when the triangle is not nearer.
-fn bvh_hit_triangle(index: u32, ray: Ray, hit: Hit) -> Hit {
+fn bvh_hit_triangle(index: u32, instance: u32, ray: Ray, hit: Hit) -> Hit {
     let edge1 = trace_triangles[index].edge1.xyz;
     let edge2 = trace_triangles[index].edge2.xyz;
     let normal = cross(edge1, edge2);
@@ -103,41 +109,77 @@ fn bvh_hit_triangle(index: u32, ray: Ray, hit: Hit) -> Hit {
     let signs = (bitcast<u32>(u) | bitcast<u32>(v) | bitcast<u32>(w)) & 0x80000000u;
     let t = bvh_dot(normal, c) * inverse_determinant;
     if inverse_determinant != 0.0 && signs == 0u && t >= 0.0 && t < hit.t {
-        return Hit(t, index, vec2f(u, v));
+        return Hit(t, index, instance, vec2f(u, v));
     }
     return hit;
 }
 
 // The nearest triangle nearer than ray.t_max, or a miss.
 fn bvh_closest(ray: Ray) -> Hit {
-    var hit = Hit(ray.t_max, TRACE_NONE, vec2f(0.0));
+    var hit = Hit(ray.t_max, TRACE_NONE, 0u, vec2f(0.0));
     if trace_frame.triangle_count == 0u {
         return hit;
     }
-    let octant_inverse4 = bvh_octant_inverse4(ray.direction);
+    // The ray in the space of the hierarchy that is being walked, and whose that is.
+    var local = ray;
+    var instance = 0u;
+    var octant_inverse4 = bvh_octant_inverse4(ray.direction);
     var stack: array<vec2u, 32>;
     var stack_size = 0u;
+    // The size of the stack at which the instance is done with.
+    var stack_floor = TRACE_NONE;
     var nodes = vec2u(0u, 0x80000000u);
     for (var visit = 0u; visit < BVH_MAX_VISITS; visit++) {
-        let offset = firstLeadingBit(nodes.y);
-        let inner_mask = nodes.y;
-        nodes.y &= ~(1u << offset);
-        if nodes.y > 0x00ffffffu && stack_size < BVH_STACK_SIZE {
-            stack[stack_size] = nodes;
-            stack_size += 1u;
+        // Triangles that an instance among them held up come from the stack, as nodes do.
+        var triangles = vec2u(nodes.x, nodes.y & 0x00ffffffu);
+        if nodes.y > 0x00ffffffu {
+            let offset = firstLeadingBit(nodes.y);
+            let inner_mask = nodes.y;
+            nodes.y &= ~(1u << offset);
+            if nodes.y > 0x00ffffffu && stack_size < BVH_STACK_SIZE {
+                stack[stack_size] = nodes;
+                stack_size += 1u;
+            }
+            let slot = (offset - 24u) ^ (octant_inverse4 & 0xffu);
+            let child = nodes.x + countOneBits(inner_mask & ~(0xffffffffu << slot));
+            let found = bvh_hit_node(child, local, hit.t, octant_inverse4);
+            nodes = found.xy;
+            triangles = found.zw;
+        } else {
+            nodes.y = 0u;
         }
-        let slot = (offset - 24u) ^ (octant_inverse4 & 0xffu);
-        let child = nodes.x + countOneBits(inner_mask & ~(0xffffffffu << slot));
-        let found = bvh_hit_node(child, ray, hit.t, octant_inverse4);
-        nodes = found.xy;
-        var triangles = found.w;
         // At most 24: one bit each.
-        while triangles != 0u {
-            let local = firstLeadingBit(triangles);
-            triangles &= ~(1u << local);
-            hit = bvh_hit_triangle(found.z + local, ray, hit);
+        while triangles.y != 0u {
+            let bit = firstLeadingBit(triangles.y);
+            triangles.y &= ~(1u << bit);
+            let index = triangles.x + bit;
+            let link = bitcast<u32>(trace_triangles[index].v0.w);
+            if link == 0u {
+                hit = bvh_hit_triangle(index, instance, local, hit);
+                continue;
+            }
+            if nodes.y > 0x00ffffffu && stack_size < BVH_STACK_SIZE {
+                stack[stack_size] = nodes;
+                stack_size += 1u;
+            }
+            if triangles.y != 0u && stack_size < BVH_STACK_SIZE {
+                stack[stack_size] = triangles;
+                stack_size += 1u;
+            }
+            stack_floor = stack_size;
+            instance = link;
+            local = instance_ray(link, ray);
+            octant_inverse4 = bvh_octant_inverse4(local.direction);
+            nodes = vec2u(instance_root(link), 0x80000000u);
+            break;
         }
         if nodes.y <= 0x00ffffffu {
+            if stack_size == stack_floor {
+                stack_floor = TRACE_NONE;
+                instance = 0u;
+                local = ray;
+                octant_inverse4 = bvh_octant_inverse4(ray.direction);
+            }
             if stack_size == 0u {
                 break;
             }
