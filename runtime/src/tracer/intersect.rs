@@ -86,7 +86,8 @@ impl Tracer {
         if let Some(pipeline) = self.queries.get() {
             return Ok(pipeline);
         }
-        let made = QueryPipeline::new(&self.device, &self.pipelines.scene_layout).await?;
+        let made =
+            QueryPipeline::new(&self.device, &self.pipelines.scene_layout, &self.scene).await?;
         // Of two calls at the same time the first to end keeps its kernel.
         Ok(self.queries.get_or_init(|| made))
     }

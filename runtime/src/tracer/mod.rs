@@ -108,7 +108,7 @@ impl Tracer {
         }
         // The scene first: which code the shader needs depends on the textures' features.
         let buffers = SceneBuffers::upload(device, queue, scene, size, options).await?;
-        let pipelines = Pipelines::new(device, buffers.texture_features()).await?;
+        let pipelines = Pipelines::new(device, &buffers).await?;
         checked(device, "film", || {
             // Buffers, not storage textures: core WebGPU cannot read and write RGBA32Float in place.
             // New buffers hold zeros, so the film starts black.

@@ -50,8 +50,9 @@ pub(super) struct Bindings {
 }
 
 impl Pipelines {
-    pub(super) async fn new(device: &Device, texture_features: u32) -> Result<Self, RuntimeError> {
-        let context = vtex_shaders::scene_context(texture_features, TEXTURE_SLOT);
+    pub(super) async fn new(device: &Device, scene: &SceneBuffers) -> Result<Self, RuntimeError> {
+        let context = vtex_shaders::scene_context(scene.texture_features(), TEXTURE_SLOT);
+        let context = scene.world().levels(context);
         let wgsl = linked("root/render", &context)?;
         compiled(device, "path tracer", || {
             let scene_layout = buffers_layout(device, "vtex scene", SCENE_GROUP);
@@ -75,9 +76,11 @@ impl QueryPipeline {
     pub(super) async fn new(
         device: &Device,
         scene_layout: &BindGroupLayout,
+        scene: &SceneBuffers,
     ) -> Result<Self, RuntimeError> {
         // It reads triangles alone, so no evaluator of textures is linked.
-        let wgsl = linked("root/intersect", &LinkContext::default())?;
+        let context = scene.world().levels(LinkContext::default());
+        let wgsl = linked("root/intersect", &context)?;
         compiled(device, "ray query", || {
             let query_layout = buffers_layout(device, "vtex queries", QUERY_GROUP);
             let groups = [scene_layout, &query_layout];

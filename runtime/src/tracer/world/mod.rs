@@ -14,6 +14,7 @@ use glam::{Vec3, Vec3A};
 use obvhs::aabb::Aabb;
 use obvhs::cwbvh::CwBvh;
 use obvhs::triangle::Triangle;
+use vtex_shaders::LinkContext;
 
 use super::bvh;
 use super::records::{AttributeRecord, NONE, TriangleRecord};
@@ -152,6 +153,15 @@ impl World {
         self.triangles.push(placed.triangle);
         self.attributes.push(placed.attributes);
         self.sources.push(placed.source);
+    }
+
+    /// `context` with the traversal that this scene needs: any text that imports `trace/bvh` is to be
+    /// linked with it.
+    pub(super) fn levels(&self, context: LinkContext) -> LinkContext {
+        match self.instance_sources.is_empty() {
+            true => context.fill("trace/bvh", "trace/world/bvh_one"),
+            false => context,
+        }
     }
 
     /// Drops what only the device reads.

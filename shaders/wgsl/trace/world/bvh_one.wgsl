@@ -1,0 +1,44 @@
+//!use trace/bindings
+//!use trace/ray
+//!use trace/world/nodes
+// Closest hit in a scene without instances: trace/bvh, with one level.
+
+// The nearest triangle nearer than ray.t_max, or a miss.
+fn bvh_closest(ray: Ray) -> Hit {
+    var hit = Hit(ray.t_max, TRACE_NONE, 0u, vec2f(0.0));
+    if trace_frame.triangle_count == 0u {
+        return hit;
+    }
+    let octant_inverse4 = bvh_octant_inverse4(ray.direction);
+    var stack: array<vec2u, 32>;
+    var stack_size = 0u;
+    var nodes = vec2u(0u, 0x80000000u);
+    for (var visit = 0u; visit < BVH_MAX_VISITS; visit++) {
+        let offset = firstLeadingBit(nodes.y);
+        let inner_mask = nodes.y;
+        nodes.y &= ~(1u << offset);
+        if nodes.y > 0x00ffffffu && stack_size < BVH_STACK_SIZE {
+            stack[stack_size] = nodes;
+            stack_size += 1u;
+        }
+        let slot = (offset - 24u) ^ (octant_inverse4 & 0xffu);
+        let child = nodes.x + countOneBits(inner_mask & ~(0xffffffffu << slot));
+        let found = bvh_hit_node(child, ray, hit.t, octant_inverse4);
+        nodes = found.xy;
+        var triangles = found.w;
+        // At most 24: one bit each.
+        while triangles != 0u {
+            let local = firstLeadingBit(triangles);
+            triangles &= ~(1u << local);
+            hit = bvh_hit_triangle(found.z + local, 0u, ray, hit);
+        }
+        if nodes.y <= 0x00ffffffu {
+            if stack_size == 0u {
+                break;
+            }
+            stack_size -= 1u;
+            nodes = stack[stack_size];
+        }
+    }
+    return hit;
+}
