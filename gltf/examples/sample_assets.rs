@@ -3,7 +3,7 @@
 //!
 //! - `box_textured.glb`: a cube, the same picture on each side;
 //! - `texture_coordinates.glb`: four quads, each showing the corner of the texture it is named after;
-//! - `texture_settings.glb`: uv from -1 to 2 by wrap mode, REPEAT, CLAMP_TO_EDGE, MIRRORED_REPEAT;
+//! - `texture_settings.glb`: uv from -1 to 2 by wrap mode, repeating, clamped, mirrored;
 //! - `orientation.glb`: arrows along +x, +y and +z in red, green and blue, by turned nodes;
 //! - `instances.glb`: 400 cubes of one mesh by `EXT_mesh_gpu_instancing`.
 
@@ -14,6 +14,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
+type Make = fn() -> Outcome<Vec<u8>>;
 
 fn main() -> Outcome<()> {
     let folder = std::env::args()
@@ -21,7 +22,7 @@ fn main() -> Outcome<()> {
         .ok_or("name a folder to write into")?;
     let folder = Path::new(&folder);
     std::fs::create_dir_all(folder)?;
-    let assets: [(&str, fn() -> Outcome<Vec<u8>>); 5] = [
+    let assets: [(&str, Make); 5] = [
         ("box_textured", box_textured),
         ("texture_coordinates", texture_coordinates),
         ("texture_settings", texture_settings),
