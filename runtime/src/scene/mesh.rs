@@ -6,9 +6,10 @@ use glam::{Vec2, Vec3};
 
 use crate::RuntimeError;
 
-/// Most triangles a scene may hold after its instances are placed. Bounds the time that building a
-/// BVH takes, about a second for a million, and keeps the largest array, 64 bytes a triangle for
-/// shading, below a binding of 128 MiB; past it [`RuntimeError::Limit`].
+/// Most triangles a scene may store. A mesh that several instances show is stored once, with one more
+/// for each instance, unless its copies are few and small. Bounds the time that building a BVH takes,
+/// about a second for a million, and keeps the largest array, 64 bytes a triangle for shading, below
+/// a binding of 128 MiB; past it [`RuntimeError::Limit`].
 pub const MAX_TRIANGLES: usize = 2_000_000;
 
 /// An indexed triangle mesh in object space (right-handed, y up), counter-clockwise seen from

@@ -69,6 +69,13 @@ pub struct Material {
     pub emission: [f32; 3],
 }
 
+impl Material {
+    /// Whether it may let rays through.
+    pub(crate) fn is_veil(&self) -> bool {
+        self.texture.is_some() && self.backing.is_none()
+    }
+}
+
 /// How light scatters at a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Surface {

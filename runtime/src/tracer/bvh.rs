@@ -1,6 +1,10 @@
 //! Triangles of a scene in the order of an obvhs CWBVH.
 
 use glam::Vec3A;
+use obvhs::Boundable;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::node::Bvh2Node;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::cwbvh::CwBvh;
 use obvhs::cwbvh::bvh2_to_cwbvh::bvh2_to_cwbvh;
@@ -14,20 +18,107 @@ const SEARCH_DEPTH_THRESHOLD: usize = 3;
 /// Triangles a leaf may hold; the node layout allows no more.
 const MAX_TRIANGLES_PER_LEAF: u32 = 3;
 
-/// Builds the hierarchy. obvhs' own `build_cwbvh_from_tris` reads a clock, which panics in a
-/// browser, so its steps are called one by one.
-pub(crate) fn build(triangles: &[Triangle]) -> CwBvh {
-    let count = u32::try_from(triangles.len()).unwrap_or(u32::MAX);
-    let mut bvh2 = PlocBuilder::with_capacity(triangles.len()).build(
+/// Coordinates beyond this are not traced: the triple product of an intersection would overflow. A
+/// scene in metres that reaches to Neptune is within it.
+const MOST_COORDINATE: f32 = 1.0e12;
+
+/// By how much of its size and of its coordinates a box is enlarged at most while a hierarchy is built.
+const JITTER: [f32; 2] = [1.0 / 256.0, 1.0 / 1_048_576.0];
+/// Deepest hierarchy that is kept as obvhs builds it, half of what the shader's stack holds. Sizes that
+/// grow from one triangle to the next make deeper ones.
+const MOST_DEPTH: usize = 15;
+
+/// Builds the hierarchy over triangles or boxes, none of them beyond [`MOST_COORDINATE`]: with an
+/// infinite one obvhs comes to no end. Its own `build_cwbvh_from_tris` reads a clock, which panics in
+/// a browser, so its steps are called one by one.
+pub(crate) fn build<T: Boundable>(primitives: &[T]) -> CwBvh {
+    let boxes: Vec<Aabb> = (0..)
+        .zip(primitives)
+        .map(|(i, p)| jittered(p.aabb(), i))
+        .collect();
+    let indices = (0..u32::try_from(boxes.len()).unwrap_or(u32::MAX)).collect();
+    let mut bvh2 = PlocBuilder::with_capacity(boxes.len()).build(
         PlocSearchDistance::Medium,
-        triangles,
-        (0..count).collect(),
+        &boxes,
+        indices,
         SortPrecision::U64,
         SEARCH_DEPTH_THRESHOLD,
     );
     ReinsertionOptimizer::default().run(&mut bvh2, REINSERTION_BATCH_RATIO, None);
-    // Children are placed so that the shader meets near ones first; it does not read exact boxes.
-    bvh2_to_cwbvh(&bvh2, MAX_TRIANGLES_PER_LEAF, true, false)
+    // Converting recurses.
+    let levels = match bvh2.nodes.is_empty() {
+        true => 0,
+        false => bvh2.depth(0),
+    };
+    if levels <= 8 * MOST_DEPTH {
+        // Children are placed so that the shader meets near ones first; it does not read exact boxes.
+        let wide = bvh2_to_cwbvh(&bvh2, MAX_TRIANGLES_PER_LEAF, true, false);
+        if depth(&wide) <= MOST_DEPTH {
+            return wide;
+        }
+    }
+    bvh2_to_cwbvh(&balanced(&boxes), MAX_TRIANGLES_PER_LEAF, true, false)
+}
+
+/// Enlarges a box on one side or the other, by shares that differ from one box to the next. The builder
+/// joins neighbours that prefer each other; among equal boxes, in even rows or where each is a little
+/// larger than the last, all would prefer the same side, and it would join two in each of its rounds.
+fn jittered(own: Aabb, index: u32) -> Aabb {
+    let size = (own.max - own.min).max_element();
+    let most = own.min.abs().max(own.max.abs()).max_element();
+    let width = (JITTER[0] * size).max(JITTER[1] * most);
+    let above =
+        Vec3A::from([0, 1, 2].map(|axis| unit_hash(index.wrapping_mul(3).wrapping_add(axis))));
+    Aabb {
+        min: own.min - width * (1.0 - above),
+        max: own.max + width * above,
+    }
+}
+
+/// A number in \[0, 1) without a pattern: the finalizer of splitmix32.
+fn unit_hash(index: u32) -> f32 {
+    let mut bits = index.wrapping_mul(0x9e37_79b9);
+    bits = (bits ^ bits >> 16).wrapping_mul(0x21f0_aaad);
+    bits = (bits ^ bits >> 15).wrapping_mul(0x735a_2d97);
+    ((bits ^ bits >> 15) >> 8) as f32 / 16_777_216.0
+}
+
+/// A hierarchy that halves the boxes by their middles along the longest side, again and again.
+fn balanced(boxes: &[Aabb]) -> Bvh2 {
+    let count = u32::try_from(boxes.len()).unwrap_or(u32::MAX);
+    let mut indices: Vec<u32> = (0..count).collect();
+    let mut nodes = vec![Bvh2Node::default()];
+    let mut open = vec![(0, 0..boxes.len())];
+    while let Some((node, range)) = open.pop() {
+        let own = &mut indices[range.clone()];
+        let bounds = own
+            .iter()
+            .fold(Aabb::empty(), |all, &i| all.union(&boxes[i as usize]));
+        let first = if own.len() <= 1 {
+            range.start
+        } else {
+            let size = bounds.max - bounds.min;
+            let axis = (0..3).fold(
+                0,
+                |best, axis| if size[axis] > size[best] { axis } else { best },
+            );
+            let middle = |i: &u32| boxes[*i as usize].min[axis] + boxes[*i as usize].max[axis];
+            let half = own.len() / 2;
+            own.select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)));
+            let first = nodes.len();
+            nodes.extend([Bvh2Node::default(); 2]);
+            open.push((first, range.start..range.start + half));
+            open.push((first + 1, range.start + half..range.end));
+            first
+        };
+        let primitives = u32::from(range.len() == 1);
+        nodes[node] = Bvh2Node::new(bounds, primitives, u32::try_from(first).unwrap_or(u32::MAX));
+    }
+    Bvh2 {
+        nodes,
+        primitive_indices: indices,
+        ..Bvh2::default()
+    }
 }
 
 /// Deepest path of inner nodes, which bounds the traversal's stack.
@@ -49,146 +140,24 @@ pub(crate) fn depth(bvh: &CwBvh) -> usize {
     deepest
 }
 
+/// Whether a triangle can be built into a hierarchy and met by a ray: its corners are numbers in
+/// range, and the square of twice its area is one too, which shading divides by.
+pub(crate) fn is_traceable(triangle: &Triangle) -> bool {
+    let edges = [triangle.v0 - triangle.v1, triangle.v2 - triangle.v0];
+    [triangle.v0, triangle.v1, triangle.v2]
+        .into_iter()
+        .all(is_within)
+        && edges[0].cross(edges[1]).length_squared().is_normal()
+}
+
+/// Whether a point is one that can be traced.
+pub(crate) fn is_within(point: Vec3A) -> bool {
+    // False for what is no number.
+    point.abs().cmple(Vec3A::splat(MOST_COORDINATE)).all()
+}
+
 /// obvhs' triangle of three corners.
 pub(crate) fn triangle(corners: [Vec3A; 3]) -> Triangle {
     let [v0, v1, v2] = corners;
     Triangle { v0, v1, v2 }
-}
-
-#[cfg(test)]
-#[cfg(feature = "blocking")]
-mod tests {
-    use obvhs::ray::{Ray, RayHit};
-
-    use glam::{Affine3A, Vec3};
-
-    use super::*;
-    use crate::{
-        Camera, Gpu, Instance, Material, Mesh, RayQuery, RectLight, Scene, Sky, TraceOptions,
-        Tracer,
-    };
-
-    /// Round and flat things on a floor under a light, so that the hierarchy is deep and leaves
-    /// lie at all depths.
-    fn crowded_scene() -> Scene {
-        let lying = Affine3A::from_rotation_x(-std::f32::consts::FRAC_PI_2);
-        let at = |x: f32, y: f32, z: f32| Affine3A::from_translation(Vec3::new(x, y, z));
-        let placed = [
-            (Mesh::plane(20.0, 20.0), lying),
-            (Mesh::sphere(0.5, 128, 1.0), at(0.0, 0.5, 0.0)),
-            (Mesh::cylinder(0.4, 0.8, 96, 1.0), at(1.2, 0.4, 0.1)),
-            (Mesh::cuboid([1.0; 3]), at(-1.2, 0.5, -0.2)),
-        ];
-        let place = |(mesh, (_, placed)): (usize, &(Mesh, Affine3A))| Instance {
-            mesh,
-            material: 0,
-            world_from_object: placed.to_cols_array_2d(),
-        };
-        Scene {
-            instances: placed.iter().enumerate().map(place).collect(),
-            meshes: placed.into_iter().map(|(mesh, _)| mesh).collect(),
-            materials: vec![Material::default()],
-            textures: Vec::new(),
-            sky: Sky::uniform(1.0),
-            lights: vec![RectLight {
-                corner: [-1.0, 3.0, -1.0],
-                edge_u: [2.0, 0.0, 0.0],
-                edge_v: [0.0, 0.0, 2.0],
-                radiance: [1.0; 3],
-            }],
-            camera: Camera {
-                position: [0.25, 1.45, 4.9],
-                target: [0.0, 0.42, 0.0],
-                up: [0.0, 1.0, 0.0],
-                fov_y_rad: 0.55,
-            },
-        }
-    }
-
-    /// All triangles in the order in which the tracer counts them.
-    fn world_triangles(scene: &Scene) -> Vec<Triangle> {
-        let mut triangles = Vec::new();
-        for instance in &scene.instances {
-            let mesh = &scene.meshes[instance.mesh];
-            let place = |i: u32| {
-                let position = mesh.positions[i as usize].into();
-                Affine3A::from_cols_array_2d(&instance.world_from_object)
-                    .transform_point3a(position)
-            };
-            triangles.extend(mesh.triangles.iter().map(|t| triangle(t.map(place))));
-        }
-        for light in &scene.lights {
-            let [corner, edge_u, edge_v] =
-                [light.corner, light.edge_u, light.edge_v].map(Vec3::from);
-            let at = |u: f32, v: f32| Vec3A::from(corner + edge_u * u + edge_v * v);
-            triangles.push(triangle([at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0)]));
-            triangles.push(triangle([at(0.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)]));
-        }
-        triangles
-    }
-
-    /// Rays through pixel centres.
-    fn primary_rays(camera: &Camera, size: [u32; 2]) -> Vec<RayQuery> {
-        let [right, up, forward] = camera.axes().unwrap();
-        let tangent = (0.5 * camera.fov_y_rad).tan();
-        let [width, height] = size.map(|side| side as f32);
-        let ray = |i: u32| {
-            let x = ((i % size[0]) as f32 + 0.5) / width * 2.0 - 1.0;
-            let y = ((i / size[0]) as f32 + 0.5) / height * 2.0 - 1.0;
-            let direction = forward + tangent * (x * width / height * right - y * up);
-            RayQuery {
-                origin: camera.position,
-                direction: direction.normalize().to_array(),
-                t_max: f32::MAX,
-            }
-        };
-        (0..size[0] * size[1]).map(ray).collect()
-    }
-
-    #[test]
-    fn traversal_on_the_device_is_that_of_obvhs_to_the_bit() {
-        if !vtex_testing::gpu("traversal on the device") {
-            return;
-        }
-        let gpu = Gpu::headless().expect("an adapter; VTEX_GPU=off skips this test");
-        let scene = crowded_scene();
-        let options = TraceOptions::default();
-        let tracer = Tracer::new(&gpu.device, &gpu.queue, &scene, [8, 8], &options).unwrap();
-        let rays = primary_rays(&scene.camera, [480, 320]);
-        let found = tracer.intersect(&rays).unwrap();
-        // So few that their buffer is padded.
-        let few = rays.len() / 2..rays.len() / 2 + 3;
-        let alone = tracer.intersect(&rays[few.clone()]).unwrap();
-        assert_eq!(alone, found[few], "few rays");
-
-        let triangles = world_triangles(&scene);
-        let bvh = build(&triangles);
-        let (mut hits, mut differences) = (0, 0);
-        for (query, found) in rays.iter().zip(found) {
-            let direction = Vec3A::from(query.direction);
-            let ray = Ray::new(query.origin.into(), direction, 0.0, query.t_max);
-            let mut nearest = RayHit::none();
-            let hit = bvh.ray_traverse(ray, &mut nearest, |ray, id| {
-                triangles[bvh.primitive_indices[id] as usize].intersect(ray)
-            });
-            let expected = hit.then(|| {
-                let triangle = bvh.primitive_indices[nearest.primitive_id as usize];
-                (nearest.t.to_bits(), triangle)
-            });
-            hits += usize::from(hit);
-            let found = found.map(|hit| (hit.t.to_bits(), hit.triangle));
-            differences += usize::from(found != expected);
-        }
-        assert!(hits > rays.len() / 2, "only {hits} rays hit");
-        // Graphics cards may fuse multiply and add; software drivers compute as written.
-        let allowed = if gpu.is_software() {
-            0
-        } else {
-            rays.len() / 100
-        };
-        assert!(
-            differences <= allowed,
-            "{differences} of {hits} hits differ"
-        );
-    }
 }

@@ -86,7 +86,7 @@ impl Tracer {
         if let Some(pipeline) = self.queries.get() {
             return Ok(pipeline);
         }
-        let made = QueryPipeline::new(&self.device, &self.traversal.layout).await?;
+        let made = QueryPipeline::new(&self.device, &self.traversal.layout, &self.scene).await?;
         // Of two calls at the same time the first to end keeps its kernel.
         Ok(self.queries.get_or_init(|| made))
     }
@@ -108,7 +108,10 @@ impl Tracer {
     fn hit(&self, record: HitRecord) -> Option<RayHit> {
         (record.triangle != NONE).then(|| RayHit {
             t: record.t,
-            triangle: self.scene.source_triangle(record.triangle),
+            triangle: self
+                .scene
+                .world()
+                .source_triangle(record.triangle, record.instance),
         })
     }
 }

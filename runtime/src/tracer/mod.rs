@@ -12,6 +12,7 @@ mod stages;
 mod textures;
 mod timer;
 mod upload;
+mod world;
 
 use std::sync::OnceLock;
 
@@ -68,8 +69,13 @@ pub struct TraceStats {
     pub rays: u64,
     /// Time the device spent tracing, in nanoseconds; `None` without timestamps.
     pub device_ns: Option<u64>,
-    /// Triangles in the scene, lights included.
+    /// Triangles in the scene, lights included and each instance of a mesh counted in full.
     pub triangles: u32,
+    /// Those among them that are left out, because no ray can meet them or tell where: without area,
+    /// with edges shorter than about 3e-10 units or longer than 4e9, or further out than 1e12.
+    pub dropped_triangles: u32,
+    /// Bytes of triangles, hierarchies and instances on the device.
+    pub geometry_bytes: u64,
 }
 
 impl Tracer {
@@ -392,7 +398,9 @@ impl Tracer {
             // A pixel's count fits 32 bits, a picture's may not.
             rays: counts.into_iter().map(u64::from).sum(),
             device_ns: self.timer.as_ref().map(Timer::total_ns),
-            triangles: self.scene.triangle_count(),
+            triangles: self.scene.world().triangle_count,
+            dropped_triangles: self.scene.world().dropped,
+            geometry_bytes: self.scene.geometry_bytes(),
         })
     }
 }

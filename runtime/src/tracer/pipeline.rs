@@ -19,10 +19,8 @@ const UNIFORM: BufferBindingType = BufferBindingType::Uniform;
 const SCENE_BINDINGS: [BufferBindingType; 6] = [UNIFORM, UNIFORM, READ, READ, READ, READ];
 /// Those that traversal reads: frame, pass, nodes, triangles.
 pub(super) const TRAVERSAL: &[u32] = &[0, 1, 2, 3];
-/// Those that shading reads: frame, pass, triangles, attributes, materials.
-pub(super) const SHADING: &[u32] = &[0, 1, 3, 4, 5];
-/// All of them.
-const EVERYTHING: &[u32] = &[0, 1, 2, 3, 4, 5];
+/// Those that shading reads: all of them, since records of instances lie among the nodes.
+pub(super) const SHADING: &[u32] = &[0, 1, 2, 3, 4, 5];
 
 const FILM_GROUP: &[BufferBindingType] = &[WRITE, WRITE];
 const QUERY_GROUP: &[BufferBindingType] = &[READ, WRITE];
@@ -124,9 +122,10 @@ impl SingleKernel {
     pub(super) async fn new(device: &Device, inputs: Inputs<'_>) -> Result<Self, RuntimeError> {
         let scene = inputs.scene;
         let context = vtex_shaders::scene_context(scene.texture_features(), TEXTURE_SLOT);
+        let context = scene.world().levels(context);
         let wgsl = linked("root/render", &context)?;
         compiled(device, "path tracer", || {
-            let scene_group = SceneGroup::new(device, scene, inputs.pass, EVERYTHING);
+            let scene_group = SceneGroup::new(device, scene, inputs.pass, SHADING);
             let film = BufferGroup::film(device, inputs.film);
             let entries = Uploaded::layout_entries(TEXTURE_SLOT.binding, ShaderStages::COMPUTE);
             let texture_layout = layout_of(device, "vtex textures", &entries);
@@ -165,9 +164,11 @@ impl QueryPipeline {
     pub(super) async fn new(
         device: &Device,
         scene_layout: &BindGroupLayout,
+        scene: &SceneBuffers,
     ) -> Result<Self, RuntimeError> {
         // It reads triangles alone, so no evaluator of textures is linked.
-        let wgsl = linked("root/intersect", &LinkContext::default())?;
+        let context = scene.world().levels(LinkContext::default());
+        let wgsl = linked("root/intersect", &context)?;
         compiled(device, "ray query", || {
             let query_layout = buffers_layout(device, "vtex queries", QUERY_GROUP);
             let groups = [scene_layout, &query_layout];

@@ -12,7 +12,8 @@ pub(crate) const SURFACE_DIFFUSE: u32 = 0;
 /// [`MaterialRecord::surface`]: GGX over Lambert.
 pub(crate) const SURFACE_GLOSSY: u32 = 1;
 
-/// What intersection reads of a triangle: `edge1 = v0 - v1`, `edge2 = v2 - v0`.
+/// What intersection reads of a triangle: `edge1 = v0 - v1`, `edge2 = v2 - v0`; or an instance, whose
+/// place the bits of `v0[3]` say.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct TriangleRecord {
@@ -104,8 +105,8 @@ pub(crate) struct RayRecord {
 pub(crate) struct HitRecord {
     pub(crate) t: f32,
     pub(crate) triangle: u32,
-    pub(crate) reserved0: u32,
-    pub(crate) reserved1: u32,
+    pub(crate) instance: u32,
+    pub(crate) reserved: u32,
 }
 
 #[cfg(test)]
@@ -147,7 +148,7 @@ mod tests {
             }
             PassRecord { row_first, row_count, sample_first, sample_count }
             RayRecord { origin_t_max, direction }
-            HitRecord { t, triangle, reserved0, reserved1 }
+            HitRecord { t, triangle, instance, reserved }
         }
     }
 

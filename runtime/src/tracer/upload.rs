@@ -1,24 +1,19 @@
 //! A scene as buffers on the device.
 
-use glam::{Affine3A, Vec3, Vec3A, Vec4};
-use obvhs::triangle::Triangle;
+use glam::Vec3;
 use wgpu::{Buffer, BufferUsages, Device, Queue};
 
+use super::TraceOptions;
 use super::queues::TextureQueues;
 use super::records::{
-    AttributeRecord, FrameRecord, LightRecord, MaterialRecord, NONE, SURFACE_DIFFUSE,
-    SURFACE_GLOSSY, TriangleRecord,
+    FrameRecord, LightRecord, MaterialRecord, NONE, SURFACE_DIFFUSE, SURFACE_GLOSSY,
 };
 use super::textures::PackedTextures;
-use super::{TraceOptions, bvh};
+use super::world::{World, index_u32};
 use crate::RuntimeError;
 use crate::device::{Uploaded, checked, filled_buffer};
-use crate::scene::{
-    Camera, Instance, MAX_LIGHTS, MAX_TRIANGLES, Material, RectLight, Scene, Surface,
-};
+use crate::scene::{Camera, MAX_LIGHTS, Material, RectLight, Scene, Surface};
 
-/// Deepest hierarchy the shader's stack holds; see `STACK_SIZE` there.
-const MAX_BVH_DEPTH: usize = 32;
 /// GGX turns into a mirror below this, and f32 loses its peak.
 const MIN_GGX_ALPHA: f32 = 0.001;
 
@@ -36,16 +31,8 @@ pub(super) struct SceneBuffers {
     texture_places: Vec<[u32; 2]>,
     queues: TextureQueues,
     has_veils: bool,
-    source_triangles: Vec<u32>,
-}
-
-/// All triangles in world space with what shading needs, in scene order.
-#[derive(Debug, Default)]
-struct World {
-    triangles: Vec<Triangle>,
-    attributes: Vec<AttributeRecord>,
-    /// Whether each may let rays through.
-    is_veil: Vec<bool>,
+    /// Numbers of triangles; what was uploaded is not kept.
+    world: World,
 }
 
 impl SceneBuffers {
@@ -56,24 +43,7 @@ impl SceneBuffers {
         size: [u32; 2],
         options: &TraceOptions,
     ) -> Result<Self, RuntimeError> {
-        let world = World::new(scene)?;
-        let bvh = bvh::build(&world.triangles);
-        let depth = bvh::depth(&bvh);
-        if depth > MAX_BVH_DEPTH {
-            return Err(RuntimeError::Limit(format!(
-                "BVH of {depth} levels: is the mesh degenerate?"
-            )));
-        }
-        // In the order of the hierarchy, so that a leaf is a first index and a count.
-        let order = &bvh.primitive_indices;
-        let triangles: Vec<TriangleRecord> = order
-            .iter()
-            .map(|&i| TriangleRecord::new(&world.triangles[i as usize], world.is_veil[i as usize]))
-            .collect();
-        let attributes: Vec<AttributeRecord> = order
-            .iter()
-            .map(|&i| world.attributes[i as usize])
-            .collect();
+        let mut world = World::new(scene)?;
         let packed = PackedTextures::new(&scene.textures)?;
         let queues = TextureQueues::new(&scene.textures, options.trust);
         let lookups: Vec<[u32; 2]> = (packed.places.iter().map(|[first, _]| *first))
@@ -81,7 +51,7 @@ impl SceneBuffers {
             .map(<[u32; 2]>::from)
             .collect();
         let materials = material_records(scene, &lookups);
-        let frame_record = frame_record(scene, size, options, &triangles)?;
+        let frame_record = frame_record(scene, size, options, world.first_level)?;
         checked(device, "scene", || {
             let filled =
                 |label, bytes: &[u8], usage| filled_buffer(device, queue, label, bytes, usage);
@@ -90,16 +60,20 @@ impl SceneBuffers {
             Ok(Self {
                 frame: filled("vtex frame", frame, BufferUsages::UNIFORM)?,
                 frame_record,
-                nodes: storage("vtex BVH nodes", bytemuck::cast_slice(&bvh.nodes))?,
-                triangles: storage("vtex triangles", bytemuck::cast_slice(&triangles))?,
-                attributes: storage("vtex attributes", bytemuck::cast_slice(&attributes))?,
+                nodes: storage("vtex BVH nodes", bytemuck::cast_slice(&world.nodes))?,
+                triangles: storage("vtex triangles", bytemuck::cast_slice(&world.triangles))?,
+                attributes: storage("vtex attributes", bytemuck::cast_slice(&world.attributes))?,
                 materials: storage("vtex materials", bytemuck::cast_slice(&materials))?,
                 textures: Uploaded::new(device, queue, &packed.words, &packed.texels)?,
                 texture_features: packed.features,
                 texture_places: packed.places,
                 queues,
-                has_veils: world.is_veil.contains(&true),
-                source_triangles: bvh.primitive_indices,
+                has_veils: (scene.instances.iter())
+                    .any(|instance| scene.materials[instance.material].is_veil()),
+                world: {
+                    world.free_uploaded();
+                    world
+                },
             })
         })
         .await
@@ -140,16 +114,13 @@ impl SceneBuffers {
         self.has_veils
     }
 
-    pub(super) fn triangle_count(&self) -> u32 {
-        self.frame_record.triangle_count
+    pub(super) fn world(&self) -> &World {
+        &self.world
     }
 
-    /// Scene order of a triangle in BVH order.
-    pub(super) fn source_triangle(&self, index: u32) -> u32 {
-        self.source_triangles
-            .get(index as usize)
-            .copied()
-            .unwrap_or(NONE)
+    /// Bytes of triangles, hierarchies and instances on the device.
+    pub(super) fn geometry_bytes(&self) -> u64 {
+        self.nodes.size() + self.triangles.size() + self.attributes.size()
     }
 
     pub(super) fn set_camera(
@@ -160,104 +131,6 @@ impl SceneBuffers {
         set_camera(&mut self.frame_record, camera)?;
         queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&self.frame_record));
         Ok(())
-    }
-}
-
-impl World {
-    fn new(scene: &Scene) -> Result<Self, RuntimeError> {
-        let mut world = Self::default();
-        // Counted before anything is placed: a small mesh with many instances must not fill memory.
-        let placed: usize = scene
-            .instances
-            .iter()
-            .map(|instance| scene.meshes[instance.mesh].triangles.len())
-            .sum();
-        if placed > MAX_TRIANGLES {
-            return Err(RuntimeError::Limit(format!(
-                "{placed} triangles; a scene holds at most {MAX_TRIANGLES}"
-            )));
-        }
-        for instance in &scene.instances {
-            world.place(scene, instance);
-        }
-        // Each light has a material of its own behind the scene's, see `material_records`.
-        for (light, material) in scene.lights.iter().zip(scene.materials.len()..) {
-            world.place_light(light, index_u32(material));
-        }
-        Ok(world)
-    }
-
-    fn place(&mut self, scene: &Scene, instance: &Instance) {
-        let mesh = &scene.meshes[instance.mesh];
-        let material = &scene.materials[instance.material];
-        let is_veil = material.texture.is_some() && material.backing.is_none();
-        let to_world = Affine3A::from_cols_array_2d(&instance.world_from_object);
-        // Inverse transpose: normals stay at right angles to surfaces that are stretched. A matrix
-        // without an inverse gives no numbers, and those become normals of length 0.
-        let normal_to_world = to_world.matrix3.inverse().transpose();
-        for indices in &mesh.triangles {
-            let corners = indices.map(|i| i as usize);
-            let triangle = bvh::triangle(
-                corners.map(|i| to_world.transform_point3a(mesh.positions[i].into())),
-            );
-            let normals = corners.map(|i| {
-                let normal = normal_to_world * Vec3A::from(mesh.normals[i]);
-                normal.normalize_or_zero()
-            });
-            let uvs = corners.map(|i| mesh.uvs[i]);
-            self.triangles.push(triangle);
-            self.is_veil.push(is_veil);
-            self.attributes.push(attribute_record(
-                [0, 1, 2].map(|k| normals[k].extend(uvs[k][0])),
-                uvs.map(|[_, v]| v),
-                index_u32(instance.material),
-            ));
-        }
-    }
-
-    /// Lights are met by chance too, so they are geometry: two triangles, counter-clockwise seen
-    /// from where they shine.
-    fn place_light(&mut self, light: &RectLight, material: u32) {
-        let [corner, edge_u, edge_v] = light_vectors(light);
-        let normal = edge_u.cross(edge_v).normalize_or_zero();
-        let at = |u: f32, v: f32| Vec3A::from(corner + edge_u * u + edge_v * v);
-        for corners in [
-            [at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0)],
-            [at(0.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)],
-        ] {
-            self.triangles.push(bvh::triangle(corners));
-            self.is_veil.push(false);
-            self.attributes.push(attribute_record(
-                [normal.extend(0.0); 3],
-                [0.0; 3],
-                material,
-            ));
-        }
-    }
-}
-
-fn attribute_record(normal_u: [Vec4; 3], [v0, v1, v2]: [f32; 3], material: u32) -> AttributeRecord {
-    let [normal0_u, normal1_u, normal2_u] = normal_u.map(|n| n.to_array());
-    AttributeRecord {
-        normal0_u,
-        normal1_u,
-        normal2_u,
-        // The index as bits. The shader only reinterprets them: small ones are denormal numbers, which
-        // arithmetic may flush to zero.
-        v_material: [v0, v1, v2, f32::from_bits(material)],
-    }
-}
-
-impl TriangleRecord {
-    fn new(triangle: &Triangle, is_veil: bool) -> Self {
-        let word = |v: Vec3A| v.extend(0.0).to_array();
-        let veil = if is_veil { 1.0 } else { 0.0 };
-        Self {
-            v0: triangle.v0.extend(veil).to_array(),
-            // Signs and operations as in obvhs, whose CPU traversal must give the same bits.
-            edge1: word(triangle.v0 - triangle.v1),
-            edge2: word(triangle.v2 - triangle.v0),
-        }
     }
 }
 
@@ -307,7 +180,7 @@ fn frame_record(
     scene: &Scene,
     film_size: [u32; 2],
     options: &TraceOptions,
-    triangles: &[TriangleRecord],
+    first_level: u32,
 ) -> Result<FrameRecord, RuntimeError> {
     let mut lights = [bytemuck::Zeroable::zeroed(); MAX_LIGHTS];
     for (record, light) in lights.iter_mut().zip(&scene.lights) {
@@ -324,7 +197,7 @@ fn frame_record(
         film_width: film_size[0],
         film_height: film_size[1],
         light_count: index_u32(scene.lights.len()),
-        triangle_count: index_u32(triangles.len()),
+        triangle_count: first_level,
         seed: options.seed,
         max_bounces: options.max_bounces,
         light_sampling: options.light_sampling as u32,
@@ -375,9 +248,4 @@ fn vector(v: Vec3) -> [f32; 4] {
 
 fn color([r, g, b]: [f32; 3]) -> [f32; 4] {
     [r, g, b, 0.0]
-}
-
-/// Counts here are bounded by [`MAX_TRIANGLES`] and by memory.
-fn index_u32(index: usize) -> u32 {
-    u32::try_from(index).unwrap_or(NONE)
 }

@@ -12,5 +12,5 @@ fn intersect(@builtin(global_invocation_id) id: vec3u) {
     let query = query_rays[id.x];
     let ray = ray_new(query.origin_t_max.xyz, query.direction.xyz, query.origin_t_max.w);
     let hit = bvh_closest(ray);
-    query_hits[id.x] = HitRecord(hit.t, hit.triangle, 0u, 0u);
+    query_hits[id.x] = HitRecord(hit.t, hit.triangle, hit.instance, 0u);
 }

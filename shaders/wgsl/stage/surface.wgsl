@@ -23,7 +23,7 @@ fn stage_surface(@builtin(global_invocation_id) id: vec3u) {
         state_set_float(path, STATE_COLOR, path_escape(state_path(path)));
         return;
     }
-    let material = trace_materials[bitcast<u32>(trace_attributes[hit.triangle].v_material.w)];
+    let material = trace_materials[surface_material(hit)];
     if material.texture_word != TRACE_NONE {
         about.x = surface_ask(path, is_veil, hit, material);
     }

@@ -17,7 +17,7 @@ const STATE_THROUGHPUT: u32 = 2u;
 const STATE_COLOR: u32 = 3u;
 const STATE_COUNTS: u32 = 4u;
 const STATE_HIT: u32 = 5u;
-// The place of the answer of its lookup or TRACE_NONE, rays so far, veils so far.
+// The place of the answer of its lookup or TRACE_NONE, rays so far, veils so far, the instance that was hit.
 const STATE_LOOKUP: u32 = 6u;
 const STATE_SHADOW_ORIGIN: u32 = 7u;
 const STATE_SHADOW_DIRECTION: u32 = 8u;
@@ -88,11 +88,13 @@ fn list_push_shadow(entry: u32) {
 
 fn state_hit(path: u32) -> Hit {
     let word = state_word(path, STATE_HIT);
-    return Hit(bitcast<f32>(word.x), word.y, bitcast<vec2f>(word.zw));
+    let instance = state_word(path, STATE_LOOKUP).w;
+    return Hit(bitcast<f32>(word.x), word.y, instance, bitcast<vec2f>(word.zw));
 }
 
 fn state_set_hit(path: u32, hit: Hit) {
     state_set(path, STATE_HIT, vec4u(bitcast<u32>(hit.t), hit.triangle, bitcast<vec2u>(hit.barycentric)));
+    stage_state[STATE_LOOKUP * state_room() + path].w = hit.instance;
 }
 
 // Without its counts of rays and veils.

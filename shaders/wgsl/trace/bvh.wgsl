@@ -1,115 +1,21 @@
 //!use trace/bindings
 //!use trace/ray
 //!use trace/stack
-// Closest hit in a compressed wide BVH: Ylitie, Karras, Laine, Efficient Incoherent Ray Traversal
-// on GPUs Through Compressed Wide BVHs, HPG 2017. Node layout and order of visits are those of
-// the obvhs crate, whose CPU traversal gives the same hit to the bit where the device rounds
-// as IEEE 754 says.
+//!use trace/world/instance
+//!use trace/world/nodes
+// Closest hit in two levels of hierarchies.
 //
-// A node is five vec4u:
-//   0  corner of the box (3 floats), exponents of the three grid steps, mask of inner children
-//   1  first child node, first triangle, 8 bytes of child meta
-//   2  lower x of 8 children, upper x of 8 children;  3, 4  the same for y, z
+// There are two levels: the first hierarchy, in world space, has triangles and instances in its leaves;
+// a mesh that is placed several times has a hierarchy in its own space. A triangle record whose fourth
+// number is not zero stands for an instance and says where its record lies. Scenes without instances
+// have trace/world/bvh_one instead.
 
-// Node visits a ray may take. Some software drivers stop any loop at 65,535 rounds without a
-// word; this ends before. Real scenes take tens to hundreds.
-const BVH_MAX_VISITS: u32 = 16384u;
-// The nearest slab distance that counts, as in obvhs.
-const BVH_EPSILON: f32 = 0.0001;
-
-// Octant of the direction, inverted, in each of four bytes: children are visited in the order of
-// their slot xor this.
-fn bvh_octant_inverse4(direction: vec3f) -> u32 {
-    let bits = select(vec3u(4u, 2u, 1u), vec3u(0u), direction < vec3f(0.0));
-    return (bits.x | bits.y | bits.z) * 0x01010101u;
-}
-
-fn bvh_byte(word: u32, index: u32) -> u32 {
-    return (word >> (index * 8u)) & 0xffu;
-}
-
-// Hits among four children. `low` and `high` hold one byte a child in each of x, y and z.
-fn bvh_hit_children(
-    meta4: u32,
-    low: vec3u,
-    high: vec3u,
-    scale: vec3f,
-    base: vec3f,
-    t_max: f32,
-    octant_inverse4: u32,
-) -> u32 {
-    // Inner children carry 24..31 in the low five bits, so bits 3 and 4 are both set.
-    let inner = ((meta4 & (meta4 << 1u)) & 0x10101010u) >> 4u;
-    let bit_index4 = (meta4 ^ (octant_inverse4 & (inner * 0xffu))) & 0x1f1f1f1fu;
-    let child_bits4 = (meta4 >> 5u) & 0x07070707u;
-    var mask = 0u;
-    for (var child = 0u; child < 4u; child++) {
-        let near = vec3f(vec3u(bvh_byte(low.x, child), bvh_byte(low.y, child), bvh_byte(low.z, child)));
-        let far = vec3f(vec3u(bvh_byte(high.x, child), bvh_byte(high.y, child), bvh_byte(high.z, child)));
-        let t_near = near * scale + base;
-        let t_far = far * scale + base;
-        let enter = max(max(t_near.x, max(t_near.y, t_near.z)), BVH_EPSILON);
-        let leave = min(min(t_far.x, min(t_far.y, t_far.z)), t_max);
-        if enter <= leave {
-            mask |= bvh_byte(child_bits4, child) << bvh_byte(bit_index4, child);
-        }
+// Whether a surface may let rays through. Other ones stop a shadow ray wherever they are met.
+fn bvh_is_veil(hit: Hit) -> bool {
+    if hit.instance != 0u {
+        return instance_is_veil(hit.instance);
     }
-    return mask;
-}
-
-// Inner hits in the top byte by priority, triangles in the low 24 bits.
-fn bvh_hit_node(node: u32, ray: Ray, t_max: f32, octant_inverse4: u32) -> vec4u {
-    let first = node * 5u;
-    let box = trace_nodes[first];
-    let link = trace_nodes[first + 1u];
-    let x = trace_nodes[first + 2u];
-    let y = trace_nodes[first + 3u];
-    let z = trace_nodes[first + 4u];
-    let step = vec3f(
-        bitcast<f32>(bvh_byte(box.w, 0u) << 23u),
-        bitcast<f32>(bvh_byte(box.w, 1u) << 23u),
-        bitcast<f32>(bvh_byte(box.w, 2u) << 23u),
-    );
-    let scale = step * ray.inverse;
-    let base = (bitcast<vec3f>(box.xyz) - ray.origin) * ray.inverse;
-    let down = ray.direction < vec3f(0.0);
-    let low0 = select(vec3u(x.x, y.x, z.x), vec3u(x.z, y.z, z.z), down);
-    let low1 = select(vec3u(x.y, y.y, z.y), vec3u(x.w, y.w, z.w), down);
-    let high0 = select(vec3u(x.z, y.z, z.z), vec3u(x.x, y.x, z.x), down);
-    let high1 = select(vec3u(x.w, y.w, z.w), vec3u(x.y, y.y, z.y), down);
-    let mask = bvh_hit_children(link.z, low0, high0, scale, base, t_max, octant_inverse4)
-        | bvh_hit_children(link.w, low1, high1, scale, base, t_max, octant_inverse4);
-    return vec4u(link.x, (mask & 0xff000000u) | bvh_byte(box.w, 3u), link.y, mask & 0x00ffffffu);
-}
-
-fn bvh_dot(a: vec3f, b: vec3f) -> f32 {
-    // The order of the sum is part of the contract with the CPU's traversal.
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-// Moeller and Trumbore 1997, in the form of obvhs. Keeps `hit` when the triangle is not nearer.
-fn bvh_hit_triangle(index: u32, ray: Ray, hit: Hit) -> Hit {
-    let edge1 = trace_triangles[index].edge1.xyz;
-    let edge2 = trace_triangles[index].edge2.xyz;
-    let normal = cross(edge1, edge2);
-    let c = trace_triangles[index].v0.xyz - ray.origin;
-    let r = cross(ray.direction, c);
-    let inverse_determinant = 1.0 / bvh_dot(normal, ray.direction);
-    let u = bvh_dot(r, edge2) * inverse_determinant;
-    let v = bvh_dot(r, edge1) * inverse_determinant;
-    let w = 1.0 - u - v;
-    // The sign bit, not `< 0`: -0.0 is outside, as on the CPU.
-    let signs = (bitcast<u32>(u) | bitcast<u32>(v) | bitcast<u32>(w)) & 0x80000000u;
-    let t = bvh_dot(normal, c) * inverse_determinant;
-    if inverse_determinant != 0.0 && signs == 0u && t >= 0.0 && t < hit.t {
-        return Hit(t, index, vec2f(u, v));
-    }
-    return hit;
-}
-
-// Whether a triangle may let rays through. Other ones stop a shadow ray wherever they are met.
-fn bvh_is_veil(triangle: u32) -> bool {
-    return trace_triangles[triangle].v0.w != 0.0;
+    return bvh_triangle_is_veil(hit.triangle);
 }
 
 // The nearest triangle nearer than ray.t_max, or a miss.
@@ -124,37 +30,73 @@ fn bvh_any(ray: Ray) -> Hit {
 }
 
 fn bvh_traverse(ray: Ray, any_hit: bool) -> Hit {
-    var hit = Hit(ray.t_max, TRACE_NONE, vec2f(0.0));
+    var hit = Hit(ray.t_max, TRACE_NONE, 0u, vec2f(0.0));
     if trace_frame.triangle_count == 0u {
         return hit;
     }
-    let octant_inverse4 = bvh_octant_inverse4(ray.direction);
+    // The ray in the space of the hierarchy that is being walked, and whose that is.
+    var local = ray;
+    var instance = 0u;
+    var octant_inverse4 = bvh_octant_inverse4(ray.direction);
     var stack: Stack;
     var stack_size = 0u;
+    // The size of the stack at which the instance is done with.
+    var stack_floor = TRACE_NONE;
     var nodes = vec2u(0u, 0x80000000u);
     for (var visit = 0u; visit < BVH_MAX_VISITS; visit++) {
-        let offset = firstLeadingBit(nodes.y);
-        let inner_mask = nodes.y;
-        nodes.y &= ~(1u << offset);
-        if nodes.y > 0x00ffffffu && stack_size < STACK_SIZE {
-            stack_put(&stack, stack_size, nodes);
-            stack_size += 1u;
-        }
-        let slot = (offset - 24u) ^ (octant_inverse4 & 0xffu);
-        let child = nodes.x + countOneBits(inner_mask & ~(0xffffffffu << slot));
-        let found = bvh_hit_node(child, ray, hit.t, octant_inverse4);
-        nodes = found.xy;
-        var triangles = found.w;
-        // At most 24: one bit each.
-        while triangles != 0u {
-            let local = firstLeadingBit(triangles);
-            triangles &= ~(1u << local);
-            hit = bvh_hit_triangle(found.z + local, ray, hit);
-            if any_hit && hit.triangle != TRACE_NONE && !bvh_is_veil(hit.triangle) {
-                return hit;
+        // Triangles that an instance among them held up come from the stack, as nodes do.
+        var triangles = vec2u(nodes.x, nodes.y & 0x00ffffffu);
+        if nodes.y > 0x00ffffffu {
+            let offset = firstLeadingBit(nodes.y);
+            let inner_mask = nodes.y;
+            nodes.y &= ~(1u << offset);
+            if nodes.y > 0x00ffffffu && stack_size < STACK_SIZE {
+                stack_put(&stack, stack_size, nodes);
+                stack_size += 1u;
             }
+            let slot = (offset - 24u) ^ (octant_inverse4 & 0xffu);
+            let child = nodes.x + countOneBits(inner_mask & ~(0xffffffffu << slot));
+            let found = bvh_hit_node(child, local, hit.t, octant_inverse4);
+            nodes = found.xy;
+            triangles = found.zw;
+        } else {
+            nodes.y = 0u;
+        }
+        // At most 24: one bit each.
+        while triangles.y != 0u {
+            let bit = firstLeadingBit(triangles.y);
+            triangles.y &= ~(1u << bit);
+            let index = triangles.x + bit;
+            let link = bitcast<u32>(trace_triangles[index].v0.w);
+            if link == 0u {
+                hit = bvh_hit_triangle(index, instance, local, hit);
+                if any_hit && hit.triangle != TRACE_NONE && !bvh_is_veil(hit) {
+                    return hit;
+                }
+                continue;
+            }
+            if nodes.y > 0x00ffffffu && stack_size < STACK_SIZE {
+                stack_put(&stack, stack_size, nodes);
+                stack_size += 1u;
+            }
+            if triangles.y != 0u && stack_size < STACK_SIZE {
+                stack_put(&stack, stack_size, triangles);
+                stack_size += 1u;
+            }
+            stack_floor = stack_size;
+            instance = link;
+            local = instance_ray(link, ray);
+            octant_inverse4 = bvh_octant_inverse4(local.direction);
+            nodes = vec2u(instance_root(link), 0x80000000u);
+            break;
         }
         if nodes.y <= 0x00ffffffu {
+            if stack_size == stack_floor {
+                stack_floor = TRACE_NONE;
+                instance = 0u;
+                local = ray;
+                octant_inverse4 = bvh_octant_inverse4(ray.direction);
+            }
             if stack_size == 0u {
                 break;
             }

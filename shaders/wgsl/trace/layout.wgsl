@@ -13,8 +13,9 @@ const LIGHT_SAMPLING_MIS: u32 = 0u;
 // Lights are found by chance alone: slow and noisy, the check of the other.
 const LIGHT_SAMPLING_SCATTER: u32 = 1u;
 
-// The part of a triangle that intersection reads, 48 bytes. edge1 = v0 - v1, edge2 = v2 - v0.
-// v0.w is not 0 where the triangle may let rays through.
+// The part of a triangle that intersection reads, 48 bytes. edge1 = v0 - v1, edge2 = v2 - v0. v0.w holds
+// the bits of 0, or of where the record of an instance lies, for which this then stands. edge1.w is not 0
+// where the triangle may let rays through; where it is one of an instance, its record says that.
 struct TriangleRecord {
     v0: vec4f,
     edge1: vec4f,
@@ -101,6 +102,6 @@ struct RayRecord {
 struct HitRecord {
     t: f32,
     triangle: u32,
-    reserved0: u32,
-    reserved1: u32,
+    instance: u32,
+    reserved: u32,
 }

@@ -12,6 +12,9 @@ struct Hit {
     t: f32,
     // Index in the order of the BVH, TRACE_NONE for a miss.
     triangle: u32,
+    // Where the record of the instance lies whose mesh has the triangle, see trace/world/instance; 0 for a
+    // triangle that is stored in world space.
+    instance: u32,
     // Weights of the second and third vertex.
     barycentric: vec2f,
 }

@@ -1,5 +1,6 @@
 //!use trace/bindings
 //!use trace/ray
+//!use trace/world/instance
 //!use trace/cone
 // What lies where a ray hit: position, normals, uv and the footprint of the ray cone in uv.
 
@@ -16,6 +17,14 @@ struct SurfacePoint {
     front: bool,
 }
 
+// The number of the material that a ray met.
+fn surface_material(hit: Hit) -> u32 {
+    if hit.instance != 0u {
+        return instance_material(hit.instance);
+    }
+    return bitcast<u32>(trace_attributes[hit.triangle].v_material.w);
+}
+
 // Rays nearly along a surface have footprints without end; they stop at this many cone widths.
 const SURFACE_MIN_COSINE: f32 = 1.0 / 64.0;
 
@@ -23,26 +32,35 @@ fn surface_at(ray: Ray, hit: Hit, cone: Cone) -> SurfacePoint {
     let tri = trace_triangles[hit.triangle];
     let attributes = trace_attributes[hit.triangle];
     let weights = vec3f(1.0 - hit.barycentric.x - hit.barycentric.y, hit.barycentric);
-    let to_v1 = -tri.edge1.xyz;
-    let to_v2 = tri.edge2.xyz;
-    let outside = normalize(cross(to_v1, to_v2));
-    let front = dot(outside, ray.direction) < 0.0;
-    let normal = select(-outside, outside, front);
-    let smooth_normal = weights.x * attributes.normal0_u.xyz
+    var v0 = tri.v0.xyz;
+    var to_v1 = -tri.edge1.xyz;
+    var to_v2 = tri.edge2.xyz;
+    var smooth_normal = weights.x * attributes.normal0_u.xyz
         + weights.y * attributes.normal1_u.xyz
         + weights.z * attributes.normal2_u.xyz;
+    var mirrored = false;
+    if hit.instance != 0u {
+        v0 = instance_point_to_world(hit.instance, v0);
+        to_v1 = instance_vector_to_world(hit.instance, to_v1);
+        to_v2 = instance_vector_to_world(hit.instance, to_v2);
+        smooth_normal = instance_normal_to_world(hit.instance, smooth_normal);
+        mirrored = instance_mirrors(hit.instance);
+    }
+    let outside = normalize(cross(to_v1, to_v2));
+    let faces = dot(outside, ray.direction) < 0.0;
+    let normal = select(-outside, outside, faces);
     let u3 = vec3f(attributes.normal0_u.w, attributes.normal1_u.w, attributes.normal2_u.w);
     let v3 = attributes.v_material.xyz;
     var point: SurfacePoint;
-    point.position = tri.v0.xyz + weights.y * to_v1 + weights.z * to_v2;
+    point.position = v0 + weights.y * to_v1 + weights.z * to_v2;
     point.geometric_normal = normal;
     point.shading_normal = surface_shading_normal(smooth_normal, normal, ray.direction);
     point.uv = vec2f(dot(weights, u3), dot(weights, v3));
     let uv1 = vec2f(u3.y - u3.x, v3.y - v3.x);
     let uv2 = vec2f(u3.z - u3.x, v3.z - v3.x);
     point.footprint = surface_footprint(to_v1, to_v2, uv1, uv2, normal, ray.direction, cone.width);
-    point.material = bitcast<u32>(attributes.v_material.w);
-    point.front = front;
+    point.material = surface_material(hit);
+    point.front = faces != mirrored;
     return point;
 }
 

@@ -92,6 +92,36 @@ fn stack_of_veils() -> Scene {
     scene
 }
 
+/// A mesh that is stored once, see-through in one place and solid in another, turned, stretched and
+/// mirrored.
+fn instances() -> Scene {
+    let mut scene = lit_scene();
+    let ball = Mesh::sphere(0.45, 96, 2.0);
+    assert!(4 * ball.triangles.len() > 16_384, "more than is placed");
+    scene.meshes.push(ball);
+    for (place, file) in drawings().into_iter().enumerate() {
+        scene.textures.push((file, LoadOptions::default()));
+        scene.materials.push(Material {
+            texture: Some(place),
+            backing: (place % 2 == 0).then_some([0.8, 0.8, 0.7]),
+            ..Material::default()
+        });
+        let along = place as f32 - 1.5;
+        let mirrored = if place == 3 { -1.0 } else { 1.0 };
+        scene.instances.push(Instance {
+            mesh: 1,
+            material: 2 + place,
+            world_from_object: [
+                [0.8 * mirrored, 0.3, 0.0],
+                [-0.3, 1.0 + 0.1 * along, 0.2],
+                [0.0, -0.2, 0.7],
+                [0.6 * along, 0.5, 0.2 * along],
+            ],
+        });
+    }
+    scene
+}
+
 fn room_of_a_furnace() -> Scene {
     let mut scene = furnace(
         Mesh::sphere(0.7, 24, 1.0),
@@ -154,6 +184,7 @@ fn cases() -> Vec<(&'static str, Scene, TraceOptions, [u32; 2])> {
             [96, 64],
         ),
         ("see-through surfaces", veils(), options, [64, 48]),
+        ("instances", instances(), options, [96, 64]),
         ("too many of them", stack_of_veils(), options, [32, 32]),
     ]
 }

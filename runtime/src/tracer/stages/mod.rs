@@ -17,6 +17,7 @@ pub(super) use times::StageTimer;
 use super::passes::{MAX_SAMPLES_PER_PASS, PATHS_PER_PASS};
 use super::pipeline::{BufferGroup, Inputs, SHADING, SceneGroup, TRAVERSAL, linked, pipeline};
 use super::records::PassRecord;
+use super::upload::SceneBuffers;
 use crate::RuntimeError;
 use crate::device::{READ, WRITE, checked, compiled, empty_buffer};
 use step::{Kernel, Stage, Step, Work};
@@ -261,6 +262,7 @@ fn room(device: &Device, [width, height]: [u32; 2], queues: usize) -> u32 {
 /// Makes the kernels of stages from the groups that they share.
 struct Maker<'a> {
     device: &'a Device,
+    scene: &'a SceneBuffers,
     traversal: SceneGroup,
     shading: SceneGroup,
     state: BufferGroup,
@@ -272,13 +274,14 @@ struct Maker<'a> {
 }
 
 impl<'a> Maker<'a> {
-    fn new(device: &'a Device, inputs: &Inputs<'_>, between: &Between) -> Self {
+    fn new(device: &'a Device, inputs: &Inputs<'a>, between: &Between) -> Self {
         let group = |label, types: &[BufferBindingType], buffers: &[&Buffer]| {
             BufferGroup::new(device, label, types, buffers)
         };
         let scene = |numbers| SceneGroup::new(device, inputs.scene, inputs.pass, numbers);
         Self {
             device,
+            scene: inputs.scene,
             traversal: scene(TRAVERSAL),
             shading: scene(SHADING),
             state: group(
@@ -313,6 +316,7 @@ impl<'a> Maker<'a> {
         let mut groups = vec![scene.group.clone(), self.state.group.clone()];
         groups.extend(third.map(|group| group.group.clone()));
         let context = LinkContext::default().fill("trace/stack", "state/stack");
+        let context = self.scene.world().levels(context);
         let wgsl = linked(stage.module(), &context)?;
         Ok(Kernel {
             stage,

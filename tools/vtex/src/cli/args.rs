@@ -74,8 +74,11 @@ pub(crate) enum Command {
     Compare(Compare),
     /// Write the parts of a .vtex file as files: layers, mips, heat maps of the cells, shader
     Extract(Extract),
-    /// Path-trace textures: one on a plane, several on objects in a showroom
+    /// Path-trace a glTF scene, or textures: one on a plane, several on objects in a showroom
     Render(Render),
+    /// Add vector textures to a glTF asset
+    #[command(after_help = GLTF)]
+    Gltf(Gltf),
     /// Bake SVG files and write a page that compares SVG, .vtex and raster
     #[command(hide = true)]
     Demo(Demo),
@@ -95,6 +98,13 @@ Examples:
     vtex preview sign.vtex -o close.png --view 0.4,0.4,0.6,0.6
   What an engine shows with one filtered lookup per pixel:
     vtex preview sign.vtex -o sign.png --filter footprint --spp 1";
+
+const GLTF: &str = "\
+Examples:
+  A drawing for the texture, image or material named Sign:
+    vtex gltf street.glb --attach Sign=sign.svg -o street-with-sign.glb
+Programs that do not know VTEX_texture_vector show the image that the texture had, or where it had none
+a raster of the drawing.";
 
 const METRICS: &str = "The picture of the .vtex file is compared with the truth: the SVG as resvg \
     draws it without anti-aliasing, at 257 samples per pixel (256 for drawings with filters, patterns \
@@ -347,8 +357,8 @@ pub(crate) struct Extract {
 /// `vtex render`.
 #[derive(Debug, Args)]
 pub(crate) struct Render {
-    /// .svg or .vtex files: one is shown on a plane, several on objects in a showroom. SVG files are
-    /// baked first, with default options
+    /// A .glb or .gltf file; or .svg or .vtex files: one is shown on a plane, several on objects in a
+    /// showroom. SVG files are baked first, with default options
     #[arg(required = true, value_name = "SCENE")]
     pub(crate) scene: Vec<PathBuf>,
     /// File to write: .png (sRGB, tone-mapped in the showroom) or .exr (linear)
@@ -373,9 +383,46 @@ pub(crate) struct Render {
     /// Use the showroom even for one file
     #[arg(long)]
     pub(crate) showroom: bool,
+    /// Camera of a glTF scene, by name or number from 0 [default: the first; without any, a view of
+    /// everything]
+    #[arg(long, value_name = "NAME|N")]
+    pub(crate) camera: Option<String>,
+    /// Scene of a glTF asset, by number from 0
+    #[arg(long, value_name = "N")]
+    pub(crate) scene_index: Option<usize>,
+    /// Variant of the materials of a glTF asset, by name
+    #[arg(long, value_name = "NAME")]
+    pub(crate) variant: Option<String>,
     /// Fonts for text.
     #[command(flatten)]
     pub(crate) fonts: Fonts,
+}
+
+/// `vtex gltf`.
+#[derive(Debug, Args)]
+pub(crate) struct Gltf {
+    /// A .glb or .gltf file
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+    /// Show FILE, an .svg or .vtex, as the texture, image or material NAME; repeat for more
+    #[arg(long, required = true, value_name = "NAME=FILE", value_parser = named_file)]
+    pub(crate) attach: Vec<(String, PathBuf)>,
+    /// The .glb file to write; files beside IN are taken in
+    #[arg(short, long, value_name = "GLB")]
+    pub(crate) output: PathBuf,
+    /// Fonts for text.
+    #[command(flatten)]
+    pub(crate) fonts: Fonts,
+}
+
+/// `NAME=FILE`; the last equals sign counts, for names are stranger than files.
+fn named_file(text: &str) -> Result<(String, PathBuf), String> {
+    match text.rsplit_once('=') {
+        Some((name, file)) if !name.is_empty() && !file.is_empty() => {
+            Ok((name.to_owned(), file.into()))
+        }
+        _ => Err("not NAME=FILE".to_owned()),
+    }
 }
 
 /// `vtex demo`, called by `tools/demo`.

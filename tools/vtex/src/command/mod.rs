@@ -4,6 +4,7 @@ mod bake;
 mod compare;
 mod demo;
 mod extract;
+mod gltf;
 mod info;
 mod preview;
 mod render;
@@ -85,6 +86,7 @@ fn dispatch(command: Command, console: Console) -> Outcome<ExitCode> {
         Command::Compare(args) => compare::run(args, console),
         Command::Extract(args) => extract::run(&args, console),
         Command::Render(args) => render::run(args, console),
+        Command::Gltf(args) => gltf::run(&args, console),
         Command::Demo(args) => demo::run(args, console),
         Command::Worker(args) => worker::run(&args),
     }

@@ -6,8 +6,10 @@ use std::time::Instant;
 use serde_json::json;
 use vtex_baker::BakeConfig;
 use vtex_format::VtexFile;
+use vtex_gltf::ReadOptions;
 use vtex_truth::picture::View;
 
+use super::gltf::beside;
 use crate::baking::fonts::FontLibrary;
 use crate::cli::args::{Render, spelled};
 use crate::cli::{Console, ExitCode, Failure, Format, Outcome, Size};
@@ -27,6 +29,9 @@ pub(super) fn run(args: Render, console: Console) -> Outcome<ExitCode> {
     output::check(&args.output)?;
     let begun = Instant::now();
     let fonts = FontLibrary::new(args.fonts.clone())?;
+    if args.scene.iter().any(|path| is_asset(path)) {
+        return asset(&args, &fonts, begun, console);
+    }
     let files = args
         .scene
         .iter()
@@ -72,6 +77,63 @@ pub(super) fn run(args: Render, console: Console) -> Outcome<ExitCode> {
             "size_px": size_px, "spp": spp, "filter": spelled(&filter), "bounces": bounces,
             "seed": seed, "showroom": kind == SceneKind::Showroom,
             "seconds": begun.elapsed().as_secs_f64(),
+        }))?;
+    }
+    Ok(ExitCode::Ok)
+}
+
+fn is_asset(path: &Path) -> bool {
+    ["glb", "gltf"].contains(&extension(path).as_str())
+}
+
+/// Renders a glTF scene.
+fn asset(
+    args: &Render,
+    fonts: &FontLibrary,
+    begun: Instant,
+    console: Console,
+) -> Outcome<ExitCode> {
+    let [path] = args.scene.as_slice() else {
+        return Err(Failure::usage(
+            "one glTF file is rendered at a time, and nothing beside it",
+        ));
+    };
+    let options = ReadOptions {
+        scene: args.scene_index,
+        variant: args.variant.clone(),
+    };
+    let asset = beside::read(path, &options, fonts)?;
+    for warning in &asset.warnings {
+        console.note(&format!("{}: {warning}", path.display()));
+    }
+    let size_px = match args.size {
+        Size::Exact(size) => size,
+        Size::Longer(longer) => [longer, (longer * 3 / 4).max(1)],
+    };
+    let aspect = size_px[0] as f32 / size_px[1] as f32;
+    let camera = beside::camera(&asset, args.camera.as_deref(), aspect)?;
+    let mut scene = asset.scene;
+    scene.camera = camera;
+    let settings = Settings {
+        size_px,
+        spp: args.spp,
+        filter: args.filter.into(),
+        bounces: args.bounces,
+        seed: args.seed,
+        kind: SceneKind::Asset,
+    };
+    let film = film::trace_scene(scene, settings, console)?;
+    let bytes = film::encode(&film, settings.kind, &args.output)?;
+    output::write(&args.output, &bytes)?;
+    let [width, height] = size_px;
+    let (output, spp) = (args.output.display(), args.spp);
+    console.note(&format!("{output}: {width} x {height}, {spp} spp"));
+    if console.format == Format::Json {
+        console.json(&json!({
+            "inputs": [lossy(path)], "output": lossy(&args.output), "bytes": bytes.len(),
+            "size_px": size_px, "spp": spp, "filter": spelled(&args.filter),
+            "bounces": args.bounces, "seed": args.seed, "showroom": false,
+            "warnings": asset.warnings, "seconds": begun.elapsed().as_secs_f64(),
         }))?;
     }
     Ok(ExitCode::Ok)

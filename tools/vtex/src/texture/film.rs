@@ -5,7 +5,9 @@ use std::path::Path;
 
 use exr::prelude::{Image, Vec2, WritableImage};
 use vtex_format::VtexFile;
-use vtex_runtime::{Film, FilterMode, Gpu, LoadOptions, ToneMap, TraceOptions, Tracer, scene};
+use vtex_runtime::{
+    Film, FilterMode, Gpu, LoadOptions, Scene, ToneMap, TraceOptions, Tracer, scene,
+};
 use vtex_scenes::showroom;
 use vtex_truth::picture::encode_png;
 
@@ -19,6 +21,8 @@ pub(crate) enum SceneKind {
     Plane,
     /// All textures on the objects of a showroom.
     Showroom,
+    /// What a glTF asset shows.
+    Asset,
 }
 
 /// How a picture is traced.
@@ -46,13 +50,21 @@ const SAMPLES_A_STEP: u32 = 4;
 /// # Errors
 /// When there is no GPU, when it fails, or when the textures do not fit into its limits.
 pub(crate) fn trace(files: Vec<VtexFile>, settings: Settings, console: Console) -> Outcome<Film> {
-    let gpu = Gpu::headless()?;
-    console.detail(&format!("tracing on {}", gpu.adapter_name()));
-    check_size(settings.size_px, &gpu)?;
-    let mut scene = match (settings.kind, files.first()) {
+    let scene = match (settings.kind, files.first()) {
         (SceneKind::Plane, Some(file)) => scene::plane(file.clone(), LoadOptions::default()),
         _ => showroom(files),
     };
+    trace_scene(scene, settings, console)
+}
+
+/// Traces a picture of `scene`.
+///
+/// # Errors
+/// As [`trace`].
+pub(crate) fn trace_scene(mut scene: Scene, settings: Settings, console: Console) -> Outcome<Film> {
+    let gpu = Gpu::headless()?;
+    console.detail(&format!("tracing on {}", gpu.adapter_name()));
+    check_size(settings.size_px, &gpu)?;
     for (_, options) in &mut scene.textures {
         options.pack.filter = settings.filter;
     }
@@ -62,6 +74,17 @@ pub(crate) fn trace(files: Vec<VtexFile>, settings: Settings, console: Console) 
         ..TraceOptions::for_samples(settings.spp)
     };
     let mut tracer = Tracer::new(&gpu.device, &gpu.queue, &scene, settings.size_px, &options)?;
+    let stats = tracer.stats()?;
+    console.detail(&format!(
+        "{} triangles in {} bytes on the device",
+        stats.triangles, stats.geometry_bytes
+    ));
+    if stats.dropped_triangles > 0 {
+        console.note(&format!(
+            "{} triangles are too small, too large or without area, and were left out",
+            stats.dropped_triangles
+        ));
+    }
     let steps = settings.spp.div_ceil(SAMPLES_A_STEP);
     let progress = console.progress(u64::from(steps), "tracing");
     while tracer.samples() < settings.spp {
@@ -96,7 +119,8 @@ pub(crate) fn encode(film: &Film, kind: SceneKind, path: &Path) -> Outcome<Vec<u
     match files::extension(path).as_str() {
         "png" => {
             let tone_map = match kind {
-                SceneKind::Plane => ToneMap::Clip,
+                // Colours under white light as they are.
+                SceneKind::Plane | SceneKind::Asset => ToneMap::Clip,
                 SceneKind::Showroom => ToneMap::Reinhard,
             };
             Ok(encode_png(
