@@ -200,7 +200,7 @@ fn traced(
     for &samples in cuts {
         tracer.accumulate(samples).unwrap();
     }
-    assert_eq!(tracer.notices(), &[] as &[String]);
+    assert_eq!(tracer.notices(), &[] as &[String], "every kernel is used");
     Some((tracer.read().unwrap(), tracer.stats().unwrap().rays))
 }
 
