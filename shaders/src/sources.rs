@@ -55,6 +55,8 @@ sources! {
     "trace/surface",
     "trace/world/bvh_one",
     "trace/world/instance",
+    "trace/world/levels",
+    "trace/world/levels_one",
     "trace/world/nodes",
     "vtex/blend",
     "vtex/cell",

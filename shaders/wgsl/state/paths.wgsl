@@ -88,13 +88,18 @@ fn list_push_shadow(entry: u32) {
 
 fn state_hit(path: u32) -> Hit {
     let word = state_word(path, STATE_HIT);
-    let instance = state_word(path, STATE_LOOKUP).w;
+    var instance = 0u;
+    if WORLD_HAS_INSTANCES {
+        instance = state_word(path, STATE_LOOKUP).w;
+    }
     return Hit(bitcast<f32>(word.x), word.y, instance, bitcast<vec2f>(word.zw));
 }
 
 fn state_set_hit(path: u32, hit: Hit) {
     state_set(path, STATE_HIT, vec4u(bitcast<u32>(hit.t), hit.triangle, bitcast<vec2u>(hit.barycentric)));
-    stage_state[STATE_LOOKUP * state_room() + path].w = hit.instance;
+    if WORLD_HAS_INSTANCES {
+        stage_state[STATE_LOOKUP * state_room() + path].w = hit.instance;
+    }
 }
 
 // Without its counts of rays and veils.

@@ -1,6 +1,7 @@
 //!use trace/bindings
 //!use trace/ray
 //!use trace/world/instance
+//!use trace/world/levels
 //!use trace/cone
 // What lies where a ray hit: position, normals, uv and the footprint of the ray cone in uv.
 
@@ -19,7 +20,7 @@ struct SurfacePoint {
 
 // The number of the material that a ray met.
 fn surface_material(hit: Hit) -> u32 {
-    if hit.instance != 0u {
+    if WORLD_HAS_INSTANCES && hit.instance != 0u {
         return instance_material(hit.instance);
     }
     return bitcast<u32>(trace_attributes[hit.triangle].v_material.w);
@@ -39,7 +40,7 @@ fn surface_at(ray: Ray, hit: Hit, cone: Cone) -> SurfacePoint {
         + weights.y * attributes.normal1_u.xyz
         + weights.z * attributes.normal2_u.xyz;
     var mirrored = false;
-    if hit.instance != 0u {
+    if WORLD_HAS_INSTANCES && hit.instance != 0u {
         v0 = instance_point_to_world(hit.instance, v0);
         to_v1 = instance_vector_to_world(hit.instance, to_v1);
         to_v2 = instance_vector_to_world(hit.instance, to_v2);

@@ -161,7 +161,9 @@ impl World {
     /// linked with it.
     pub(super) fn levels(&self, context: LinkContext) -> LinkContext {
         match self.instance_sources.is_empty() {
-            true => context.fill("trace/bvh", "trace/world/bvh_one"),
+            true => context
+                .fill("trace/bvh", "trace/world/bvh_one")
+                .fill("trace/world/levels", "trace/world/levels_one"),
             false => context,
         }
     }

@@ -134,10 +134,18 @@ const STAGES: [&str; 8] = [
     "film",
 ];
 
+/// Those of them that differ in scenes with instances.
+const WITH_INSTANCES: [&str; 4] = ["hit", "surface", "shade", "shadow"];
+
 /// The fragment in a fragment stage, as users embed it, and the kernels of the path tracer: all in one,
 /// then in stages.
 pub(crate) fn fragment_and_tracer() -> Result<Vec<Kernel>> {
     let mut kernels = Vec::new();
+    let one_level = |context: LinkContext| {
+        context
+            .fill("trace/bvh", "trace/world/bvh_one")
+            .fill("trace/world/levels", "trace/world/levels_one")
+    };
     for (name, features) in FEW {
         // Without paper mode: the batch kernels show what it costs.
         for (mode, filter) in modes(features & !Features::MSDF) {
@@ -152,7 +160,7 @@ pub(crate) fn fragment_and_tracer() -> Result<Vec<Kernel>> {
                 group: 1,
                 binding: 0,
             };
-            let context = scene_context(features, slot);
+            let context = one_level(scene_context(features, slot));
             kernels.push(Kernel {
                 name: format!("path tracer, {name}, {mode}"),
                 wgsl: link("root/render", &context).context("the path tracer does not link")?,
@@ -161,16 +169,22 @@ pub(crate) fn fragment_and_tracer() -> Result<Vec<Kernel>> {
     }
     kernels.push(Kernel {
         name: "ray query".to_owned(),
-        wgsl: link("root/intersect", &LinkContext::default())
+        wgsl: link("root/intersect", &one_level(LinkContext::default()))
             .context("the ray query does not link")?,
     });
     // The fragments first, then the tracer.
     kernels.sort_by_key(|kernel| kernel.name.split(',').next().map(str::to_owned));
-    for stage in STAGES {
-        let context = LinkContext::default().fill("trace/stack", "state/stack");
-        let text = link(&format!("stage/{stage}"), &context);
+    let staged = || LinkContext::default().fill("trace/stack", "state/stack");
+    let with = staged();
+    let without = one_level(staged());
+    for (stage, context, of) in STAGES
+        .map(|stage| (stage, &without, ""))
+        .into_iter()
+        .chain(WITH_INSTANCES.map(|stage| (stage, &with, ", instances")))
+    {
+        let text = link(&format!("stage/{stage}"), context);
         kernels.push(Kernel {
-            name: format!("stage {stage}"),
+            name: format!("stage {stage}{of}"),
             wgsl: text.with_context(|| format!("the stage {stage} does not link"))?,
         });
     }

@@ -1,0 +1,3 @@
+// Scenes without instances.
+
+const WORLD_HAS_INSTANCES: bool = false;
