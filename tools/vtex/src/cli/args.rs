@@ -2,6 +2,7 @@
 
 use std::ffi::OsString;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use vtex_baker::BakeConfig;
@@ -9,8 +10,11 @@ use vtex_truth::comparison::WINDOWS;
 use vtex_truth::picture::View;
 
 use super::Format;
+use super::light::Light;
 use super::lookup::{Filter, Lookup};
-use super::values::{Color, Matrix, Profile, Size, bytes, color, matrix, number, size, view};
+use super::values::{
+    Color, Matrix, Profile, Size, bytes, color, matrix, number, seconds, size, view,
+};
 
 /// Bake SVG drawings into vector textures (.vtex), and inspect, check, compare and render them.
 #[derive(Debug, Parser)]
@@ -361,7 +365,7 @@ pub(crate) struct Render {
     /// showroom. SVG files are baked first, with default options
     #[arg(required = true, value_name = "SCENE")]
     pub(crate) scene: Vec<PathBuf>,
-    /// File to write: .png (sRGB, tone-mapped in the showroom) or .exr (linear)
+    /// File to write: .png (sRGB, see --tone) or .exr (linear light as it was traced, 32-bit floats)
     #[arg(short, long, value_name = "PNG|EXR")]
     pub(crate) output: PathBuf,
     /// Size in pixels: `WxH`, or N for the longer side
@@ -370,6 +374,13 @@ pub(crate) struct Render {
     /// Samples per pixel
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub(crate) spp: u32,
+    /// Start no further sample this long after tracing began; one is always taken, and what there is
+    /// is written
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
+    pub(crate) time_limit: Option<Duration>,
+    /// How light becomes colours.
+    #[command(flatten)]
+    pub(crate) light: Light,
     /// How a lookup filters. Samples lie anywhere in their pixel, so that one a pixel is noisy in any
     /// mode
     #[arg(long, value_enum, default_value_t)]

@@ -121,10 +121,30 @@ pub(crate) struct Progress {
 impl Progress {
     /// Counts one more step as done.
     pub(crate) fn step(&self) {
+        self.steps(1);
+    }
+
+    /// Counts more steps as done.
+    pub(crate) fn steps(&self, count: u64) {
         if self.wanted && self.bar.is_hidden() && self.begun.elapsed() > Duration::from_secs(1) {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
-        self.bar.inc(1);
+        self.bar.inc(count);
+    }
+
+    /// Changes how many steps there will be, those that are done included.
+    pub(crate) fn expect(&self, length: u64) {
+        self.bar.set_length(length);
+    }
+
+    /// Changes what stands before the bar, 20 letters at most.
+    pub(crate) fn say(&self, what: String) {
+        self.bar.set_message(what);
+    }
+
+    /// Whether anybody sees the bar.
+    pub(crate) fn is_shown(&self) -> bool {
+        !self.bar.is_hidden()
     }
 }
 

@@ -3,6 +3,7 @@
 pub(crate) mod args;
 mod console;
 mod failure;
+pub(crate) mod light;
 pub(crate) mod lookup;
 mod panics;
 mod values;

@@ -1,5 +1,7 @@
 //! Values of options: how the text on the command line is read.
 
+use std::time::Duration;
+
 use clap::ValueEnum;
 use vtex_truth::picture::View;
 
@@ -100,6 +102,33 @@ pub(super) fn number(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Most stops that a picture is made brighter or darker.
+const MAX_STOPS: f64 = 32.0;
+
+/// Stops of an exposure.
+#[expect(clippy::cast_possible_truncation, reason = "light is f32")]
+pub(super) fn stops(text: &str) -> Result<f32, String> {
+    match number(text)? {
+        stops if stops.abs() <= MAX_STOPS => Ok(stops as f32),
+        _ => Err(format!(
+            "stops must lie between -{MAX_STOPS} and {MAX_STOPS}"
+        )),
+    }
+}
+
+/// Longest time limit: eleven days.
+const MAX_SECONDS: f64 = 1e6;
+
+/// A time of more than nothing.
+pub(super) fn seconds(text: &str) -> Result<Duration, String> {
+    match number(text)? {
+        seconds if seconds > 0.0 && seconds <= MAX_SECONDS => Ok(Duration::from_secs_f64(seconds)),
+        _ => Err(format!(
+            "seconds must be more than 0 and at most {MAX_SECONDS}"
+        )),
+    }
+}
+
 #[expect(clippy::cast_possible_truncation, reason = "the format stores f32")]
 pub(super) fn matrix(text: &str) -> Result<Matrix, String> {
     numbers(text).map(|matrix: [f64; 6]| Matrix(matrix.map(|number| number as f32)))
@@ -155,6 +184,16 @@ mod tests {
             matrix("1,0,0,1,-.5,2"),
             Ok(Matrix([1.0, 0.0, 0.0, 1.0, -0.5, 2.0]))
         );
+    }
+
+    #[test]
+    fn stops_and_seconds() {
+        assert_eq!((stops("-1.5"), stops(" 32")), (Ok(-1.5), Ok(32.0)));
+        assert!(stops("33").is_err() && stops("nan").is_err() && stops("").is_err());
+        assert_eq!(seconds("0.25"), Ok(Duration::from_millis(250)));
+        for wrong in ["0", "-1", "inf", "nan", "2e6", "1m"] {
+            assert!(seconds(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

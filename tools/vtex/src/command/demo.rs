@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use vtex_baker::BakeConfig;
 use vtex_format::VtexFile;
+use vtex_runtime::ToneMap;
 use vtex_truth::comparison::{Column, Comparison, Page, Sizes, Terms, WINDOWS, human_bytes};
 use vtex_truth::reference::{Edges, Reference};
 use vtex_truth::texture::{
@@ -17,7 +18,7 @@ use crate::cli::args::Demo;
 use crate::cli::{Console, ExitCode, Failure, Outcome};
 use crate::files::input::{self, Input};
 use crate::files::output;
-use crate::texture::film::{self, SceneKind, Settings};
+use crate::texture::film::{self, Grade, SceneKind, Settings};
 
 /// Zooms that the page shows.
 const ZOOMS: [f64; 4] = [1.0, 8.0, 32.0, 256.0];
@@ -30,7 +31,13 @@ const SCENE: Settings = Settings {
     filter: FilterMode::Point,
     bounces: 5,
     seed: 0,
-    kind: SceneKind::Showroom,
+    time_limit: None,
+};
+
+/// How it shows its light: as `vtex render` does.
+const GRADE: Grade = Grade {
+    tone_map: ToneMap::AgX,
+    stops: 0.0,
 };
 
 const INTRODUCTION: &str = "Each drawing at zoom 1, 8, 32 and 256, three times: drawn from the SVG \
@@ -54,8 +61,8 @@ pub(super) fn run(args: Demo, console: Console) -> Outcome<ExitCode> {
             .iter()
             .map(|drawing| drawing.file.clone())
             .collect();
-        let film = film::trace(files, SCENE, console)?;
-        let png = film::encode(&film, SCENE.kind, Path::new("scene.png"))?;
+        let film = film::trace(files, SceneKind::Showroom, SCENE, console)?.film;
+        let png = film::encode(&film, GRADE, Path::new("scene.png"))?;
         page.large_picture(
             png,
             "Path-traced with the textures baked from these drawings",

@@ -1,6 +1,8 @@
 //! The picture as it is read back.
 
-use vtex_shaders::srgb;
+mod tone;
+
+pub use tone::ToneMap;
 
 /// Mean of the samples so far.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,17 +14,6 @@ pub struct Film {
     pub pixels: Vec<[f32; 4]>,
     /// Samples a pixel that were averaged.
     pub samples: u32,
-}
-
-/// How radiance above 1 becomes a display value.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ToneMap {
-    /// Cut off: colours up to 1 stay what they are.
-    #[default]
-    Clip,
-    /// `x (1 + x / 16) / (1 + x)` of the luminance, Reinhard et al. 2002 eq. 4 with white at 4:
-    /// for scenes with lights in view.
-    Reinhard,
 }
 
 impl Film {
@@ -39,23 +30,10 @@ impl Film {
                 let alpha = pixel[3].clamp(0.0, 1.0);
                 let scale = if alpha > 0.0 { exposure / alpha } else { 0.0 };
                 let straight = [pixel[0] * scale, pixel[1] * scale, pixel[2] * scale];
-                let [r, g, b] = tone_map.apply(straight).map(|c| byte(srgb::encode(c)));
+                let [r, g, b] = tone_map.display(straight).map(byte);
                 [r, g, b, byte(alpha)]
             })
             .collect()
-    }
-}
-
-impl ToneMap {
-    fn apply(self, color: [f32; 3]) -> [f32; 3] {
-        match self {
-            Self::Clip => color,
-            Self::Reinhard => {
-                // Of the luminance, not of each channel: bright colours keep their hue.
-                let luminance = 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
-                color.map(|c| c * (1.0 + luminance / 16.0) / (1.0 + luminance))
-            }
-        }
     }
 }
 
@@ -94,8 +72,8 @@ mod tests {
     }
 
     #[test]
-    fn reinhard_keeps_white_at_four() {
-        let bytes = film([4.0, 4.0, 4.0, 1.0]).to_srgb8_with(1.0, ToneMap::Reinhard);
-        assert_eq!(bytes, [255; 4]);
+    fn exposure_comes_before_the_tone_map() {
+        let bytes = film([0.045, 0.045, 0.045, 1.0]).to_srgb8_with(4.0, ToneMap::AgX);
+        assert_eq!(bytes, [128, 128, 128, 255]);
     }
 }
