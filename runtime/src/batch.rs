@@ -258,7 +258,6 @@ pub(crate) async fn stored_kernel(
 
 /// This build reads no SPIR-V.
 #[cfg(not(all(feature = "spirv", not(target_arch = "wasm32"))))]
-#[expect(clippy::unused_async, reason = "the other form waits for the device")]
 pub(crate) async fn stored_kernel(
     _: &Device,
     _: &[u32],
