@@ -154,7 +154,7 @@ pub(crate) enum Profile {
     /// Small files
     #[default]
     Size,
-    /// Files that load several times as fast, for lookups of points, and are about half as large again
+    /// Files that load four to thirty times as fast, for lookups of points, and are about three times as large, busy drawings six
     Load,
     /// The same, for lookups with the filter mode footprint
     LoadFootprints,
