@@ -241,6 +241,14 @@ fn waves(waves: Waves) -> [VtexFile; 2] {
     [canvas, patch]
 }
 
+/// Options of footprint mode.
+fn of_footprints() -> PackOptions {
+    PackOptions {
+        filter: FilterMode::Footprint,
+        ..PackOptions::default()
+    }
+}
+
 /// Footprints as a plane at a grazing angle has them: waves across stay, waves along go.
 #[test]
 fn a_long_footprint_is_averaged_along_its_longer_axis_alone() {
@@ -263,7 +271,7 @@ fn a_long_footprint_is_averaged_along_its_longer_axis_alone() {
                 for kind in [across, along] {
                     let expected = kind.mean([32.0; 2], [long, short]);
                     for file in waves(kind) {
-                        let packed = pack(&file, &PackOptions::default());
+                        let packed = pack(&file, &of_footprints());
                         let footprint = axes.as_flattened();
                         let footprint = std::array::from_fn(|i| footprint[i] as f32 / 64.0);
                         let got = Sampler::new(&packed).sample([0.5; 2], footprint);
@@ -280,7 +288,7 @@ fn a_long_footprint_is_averaged_along_its_longer_axis_alone() {
 #[test]
 fn the_longest_footprints_get_wider() {
     let file = grey_levels();
-    let packed = pack(&file, &PackOptions::default());
+    let packed = pack(&file, &of_footprints());
     for (long, short) in [
         (16.0, 2.0),
         (16.0, 1.0),
@@ -292,6 +300,25 @@ fn the_longest_footprints_get_wider() {
         let expected = level_value(f64::log2(long / 8.0) - FINER);
         let got = Sampler::new(&packed).sample([0.5; 2], [0.0, long_uv, short_uv, 0.0]);
         check(got, [expected, expected, expected, 1.0], 1e-3);
+    }
+}
+
+/// Without footprint mode there is one place, as wide as the longer axis, whatever the other.
+#[test]
+fn points_count_the_longer_axis_alone() {
+    let file = grey_levels();
+    for filter in [FilterMode::Point, FilterMode::Paper] {
+        for (long, short) in [(2.0, 2.0), (4.0, 1.0), (8.0, 0.0)] {
+            let [long_uv, short_uv] = [long, short].map(|texels: f64| (texels / 16.0) as f32);
+            let options = PackOptions {
+                filter,
+                ..PackOptions::default()
+            };
+            let packed = pack(&file, &options);
+            let expected = level_value(f64::log2(long) - FINER);
+            let got = Sampler::new(&packed).sample([0.5; 2], [0.0, long_uv, short_uv, 0.0]);
+            check(got, [expected, expected, expected, 1.0], 1e-3);
+        }
     }
 }
 
