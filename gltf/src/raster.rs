@@ -5,9 +5,7 @@ use std::io::Cursor;
 use std::sync::Arc;
 
 use image::ImageReader;
-use vtex_format::{
-    AddressMode, CellWord, Entry, EntryKind, Grid, Image, Meta, SamplerSettings, SpecKey, VtexFile,
-};
+use vtex_format::{AddressMode, Grid, Image, Meta, SamplerSettings, SpecKey, VtexFile};
 
 use vtex_shaders::srgb;
 
@@ -90,33 +88,15 @@ impl Raster {
             mips: Arc::new(self.mips(alpha)),
         };
         let [width, height] = self.size.map(|side| side as f32);
-        // Cells are square in user units.
-        let mut grid = Grid::new([1, 1], 16);
-        grid.cell_from_uv_scale = [width, height].map(|side| side / width.max(height));
-        let mut meta = Meta::new([width, height], grid);
+        let mut meta = Meta::new([width, height], Grid::new([1, 1], 16));
         meta.sampler = SamplerSettings {
             texture_matrix: matrix,
             address,
             ..SamplerSettings::default()
         };
-        let entry = Entry {
-            kind: EntryKind::Image,
-            last: true,
-            opaque: image.mips[0]
-                .as_chunks::<4>()
-                .0
-                .iter()
-                .all(|texel| texel[3] == u8::MAX),
-            index: 0,
-            data: 0,
-        };
-        let cell = CellWord::List { offset_words: 0 };
-        let mut file = VtexFile {
-            cells: cell.encode().into_iter().collect(),
-            entries: entry.encode().into_iter().flatten().collect(),
-            images: vec![image],
-            ..VtexFile::blank(meta)
-        };
+        let texels = image.mips[0].as_chunks::<4>().0;
+        let opaque = texels.iter().all(|texel| texel[3] == u8::MAX);
+        let mut file = VtexFile::of_image(meta, image, opaque);
         // Image 0 is the canvas too: its border follows the address modes, so that repeated images
         // have no seams.
         file.spec = SpecKey {

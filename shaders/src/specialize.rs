@@ -63,6 +63,14 @@ pub fn scene_context(features: u32, slot: BindingSlot) -> LinkContext {
     context(&SpecKey { features }, slot)
 }
 
+/// `context` for a scene without instances: texts that import `trace/bvh` or `trace/surface` have no code
+/// for them.
+pub fn without_instances(context: LinkContext) -> LinkContext {
+    context
+        .fill("trace/world/traverse", "trace/world/traverse_one")
+        .fill("trace/world/levels", "trace/world/levels_one")
+}
+
 /// What the text of a key is linked from. The features say what there is code for; which of it a
 /// texture uses, and everything else about it, the text reads from the texture's header.
 fn context(key: &SpecKey, BindingSlot { group, binding }: BindingSlot) -> LinkContext {

@@ -1,10 +1,11 @@
 //! A whole file as a value.
 
 use super::spec::{SHADER_ABI, SpecKey};
+use crate::cells::cell::{CellWord, Entry, EntryKind};
 use crate::curves::outlines::StoredOutlines;
 use crate::records::image::Image;
 use crate::records::layer::LayerRecord;
-use crate::records::meta::Meta;
+use crate::records::meta::{Grid, Meta};
 use crate::records::paint::PaintRecord;
 use crate::records::prov::Provenance;
 use crate::records::shader::ShaderBlob;
@@ -77,6 +78,35 @@ impl VtexFile {
             tiles: Vec::new(),
             images: Vec::new(),
             provenance: None,
+        };
+        file.spec = SpecKey::for_file(&file);
+        file
+    }
+    /// A file of one cell that shows one image, which is also the canvas image where the key has mips.
+    /// `opaque`: whether all of its texels are.
+    ///
+    /// The grid is one of a single cell, square in user units; that of `meta` gives the texels along it.
+    pub fn of_image(mut meta: Meta, image: Image, opaque: bool) -> Self {
+        let [width, height] = meta.canvas_size;
+        meta.grid = Grid {
+            size_cells: [1, 1],
+            cell_from_uv_scale: [width, height].map(|side| side / width.max(height)),
+            cell_from_uv_offset: [0.0, 0.0],
+            ..meta.grid
+        };
+        let entry = Entry {
+            kind: EntryKind::Image,
+            last: true,
+            opaque,
+            index: 0,
+            data: 0,
+        };
+        let cell = CellWord::List { offset_words: 0 };
+        let mut file = Self {
+            cells: cell.encode().into_iter().collect(),
+            entries: entry.encode().into_iter().flatten().collect(),
+            images: vec![image],
+            ..Self::blank(meta)
         };
         file.spec = SpecKey::for_file(&file);
         file

@@ -1,5 +1,5 @@
 //!use core/query
-//!use root/fragment
+//!use root/answer
 // The batch kernel: an array of queries in, an array of colours out.
 
 @group(0) @binding(3) var<storage, read> vtex_queries: array<VtexBatchQuery>;
@@ -15,7 +15,7 @@ fn vtex_batch(
     // No branch around the lookup: see vtex/texture.
     let count = min(arrayLength(&vtex_queries), arrayLength(&vtex_results));
     let query = vtex_queries[min(index, max(count, 1u) - 1u)];
-    let result = vtex_sample(query.uv, query.footprint);
+    let result = vtex_answer(query);
     if index < count {
         vtex_results[index] = result;
     }

@@ -170,6 +170,30 @@ fn of(handle: TextureHandle, queries: &[BatchQuery]) -> Vec<TextureQuery> {
     queries.iter().map(query).collect()
 }
 
+/// The answers are those of the twin, and of the texture outside a set.
+fn assert_as_alone(
+    gpu: &Gpu,
+    (file, options): (&VtexFile, &LoadOptions),
+    index: usize,
+    queries: &[BatchQuery],
+    ours: &[[f32; 4]],
+) {
+    let packed = pack(file, &options.pack);
+    let subject = Subject {
+        words: &packed.words,
+        texels: &packed.texels,
+        features: spec_key(file, &options.pack).features,
+    };
+    let alone =
+        BatchSampler::new(&gpu.device, &gpu.queue, file, options, Trust::Regenerate).unwrap();
+    for other in [subject.twin(queries), alone.sample(queries).unwrap()] {
+        let parity = subject.compare(queries, &other, ours);
+        parity
+            .check()
+            .unwrap_or_else(|problem| panic!("texture {index}: {problem}"));
+    }
+}
+
 fn set(gpu: &Gpu, options: &TextureSetOptions) -> TextureSet {
     TextureSet::new(&gpu.device, &gpu.queue, options).unwrap()
 }
@@ -190,24 +214,7 @@ fn three_textures_in_one_shader_answer_as_each_alone() {
     for (index, ((file, options), &handle)) in textures.iter().zip(&handles).enumerate() {
         let queries = random_queries(index as u64, 4000, 0.3);
         let ours = shader.run(gpu, set.bind_group(), &of(handle, &queries));
-        let packed = pack(file, &options.pack);
-        let subject = Subject {
-            words: &packed.words,
-            texels: &packed.texels,
-            features: spec_key(file, &options.pack).features,
-        };
-        let twin = subject.twin(&queries);
-        let parity = subject.compare(&queries, &twin, &ours);
-        parity
-            .check()
-            .unwrap_or_else(|problem| panic!("texture {index}: {problem}"));
-        let alone =
-            BatchSampler::new(&gpu.device, &gpu.queue, file, options, Trust::Regenerate).unwrap();
-        let alone = alone.sample(&queries).unwrap();
-        let parity = subject.compare(&queries, &alone, &ours);
-        parity
-            .check()
-            .unwrap_or_else(|problem| panic!("texture {index}: {problem}"));
+        assert_as_alone(gpu, (file, options), index, &queries, &ours);
         let shown: BTreeSet<_> = ours.iter().map(|c| c.map(f32::to_bits)).collect();
         assert!(shown.len() > 10, "texture {index} shows something");
     }

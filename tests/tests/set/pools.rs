@@ -4,14 +4,13 @@ use std::collections::BTreeSet;
 
 use vtex_format::VtexFile;
 use vtex_runtime::{
-    BatchSampler, FilterMode, Gpu, LoadOptions, QueueSampler, RuntimeError, TextureHandle,
-    TextureQuery, TextureSet, TextureSetOptions, Trust,
+    FilterMode, Gpu, LoadOptions, QueueSampler, RuntimeError, TextureHandle, TextureQuery,
+    TextureSet, TextureSetOptions,
 };
-use vtex_shaders::{pack, spec_key};
-use vtex_tests::parity::{Subject, random_queries};
+use vtex_tests::parity::random_queries;
 
 use super::queue::{UNTOUCHED, answers, bind, record};
-use super::{SEVERAL, Shader, file, gpu, of, options, read, set, storage};
+use super::{SEVERAL, Shader, assert_as_alone, file, gpu, of, options, read, set, storage};
 
 /// Enough for some pools.
 fn filled(gpu: &Gpu, options: &LoadOptions) -> (TextureSet, Vec<VtexFile>, Vec<TextureHandle>) {
@@ -74,19 +73,7 @@ fn a_queue_of_all_pools_is_answered_as_each_pool_and_each_texture_alone() {
         let queries = random_queries(index as u64, 300, 0.3);
         let ours = shader.run(gpu, set.bind_group_of(handle), &of(handle, &queries));
         assert!(ours.iter().flatten().any(|&channel| channel > 0.0));
-        let packed = pack(file, &options.pack);
-        let subject = Subject {
-            words: &packed.words,
-            texels: &packed.texels,
-            features: spec_key(file, &options.pack).features,
-        };
-        let alone =
-            BatchSampler::new(&gpu.device, &gpu.queue, file, &options, Trust::Regenerate).unwrap();
-        let alone = alone.sample(&queries).unwrap();
-        let parity = subject.compare(&queries, &alone, &ours);
-        parity
-            .check()
-            .unwrap_or_else(|problem| panic!("texture {index}: {problem}"));
+        assert_as_alone(gpu, (file, &options), index, &queries, &ours);
     }
 }
 

@@ -1,15 +1,15 @@
 //! Queues whose length only the device knows.
 
 use vtex_runtime::{
-    BatchQuery, BatchSampler, FilterMode, Gpu, LookupQueue, QueueBuffers, QueueSampler,
-    RuntimeError, TextureHandle, TextureQuery, TextureSet, TextureSetOptions, Trust, wgpu,
+    BatchQuery, FilterMode, Gpu, LookupQueue, QueueBuffers, QueueSampler, RuntimeError,
+    TextureHandle, TextureQuery, TextureSet, TextureSetOptions, wgpu,
 };
+use vtex_shaders::batch_dispatch;
 use vtex_shaders::set::queue_arguments_kernel;
-use vtex_shaders::{batch_dispatch, pack, spec_key};
 use vtex_tests::fixture::random_texture;
-use vtex_tests::parity::{Subject, random_queries};
+use vtex_tests::parity::random_queries;
 
-use super::{OUTLINES, SEVERAL, file, gpu, of, options, read, set, storage};
+use super::{OUTLINES, SEVERAL, assert_as_alone, file, gpu, of, options, read, set, storage};
 
 /// What no lookup gives.
 pub(super) const UNTOUCHED: [f32; 4] = [9.0, 8.0, 7.0, 6.0];
@@ -69,20 +69,7 @@ fn a_queue_is_answered_as_a_batch_and_the_twin_do() {
         let own: Vec<usize> = (0..queries.len()).filter(pick).collect();
         let queries: Vec<BatchQuery> = own.iter().map(|&i| queries[i]).collect();
         let ours: Vec<[f32; 4]> = own.iter().map(|&i| ours[i]).collect();
-        let packed = pack(file, &options.pack);
-        let subject = Subject {
-            words: &packed.words,
-            texels: &packed.texels,
-            features: spec_key(file, &options.pack).features,
-        };
-        let batch =
-            BatchSampler::new(&gpu.device, &gpu.queue, file, &options, Trust::Regenerate).unwrap();
-        for other in [subject.twin(&queries), batch.sample(&queries).unwrap()] {
-            let parity = subject.compare(&queries, &other, &ours);
-            parity
-                .check()
-                .unwrap_or_else(|problem| panic!("texture {index}: {problem}"));
-        }
+        assert_as_alone(gpu, (file, &options), index, &queries, &ours);
     }
 }
 

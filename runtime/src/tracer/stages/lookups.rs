@@ -78,7 +78,8 @@ async fn stored_pipeline(
 }
 
 async fn text_pipeline(device: &Device, features: u32) -> Result<ComputePipeline, RuntimeError> {
-    let text = linked("stage/lookup", &scene_context(features, TEXTURE_SLOT))?;
+    let context = scene_context(features, TEXTURE_SLOT).fill("root/answer", "stage/answer");
+    let text = linked("root/batch", &context)?;
     compiled(device, "lookup kernel", || {
         Ok(batch_pipeline(
             device,

@@ -76,7 +76,7 @@ impl Stage {
             Self::Generate => "stage/generate",
             Self::Hit => "stage/hit",
             Self::Surface => "stage/surface",
-            Self::Lookups => "stage/lookup",
+            Self::Lookups => "root/batch",
             Self::Veil => "stage/veil",
             Self::Shade => "stage/shade",
             Self::Shadow => "stage/shadow",

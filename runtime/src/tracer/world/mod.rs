@@ -161,9 +161,7 @@ impl World {
     /// linked with it.
     pub(super) fn levels(&self, context: LinkContext) -> LinkContext {
         match self.instance_sources.is_empty() {
-            true => context
-                .fill("trace/bvh", "trace/world/bvh_one")
-                .fill("trace/world/levels", "trace/world/levels_one"),
+            true => vtex_shaders::without_instances(context),
             false => context,
         }
     }

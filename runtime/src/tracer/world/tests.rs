@@ -44,6 +44,15 @@ fn crowded_scene() -> Scene {
     }
 }
 
+/// Graphics cards may fuse multiply and add; software drivers compute as written.
+fn assert_equal_hits(gpu: &Gpu, differences: usize, hits: usize, rays: usize) {
+    let allowed = if gpu.is_software() { 0 } else { rays / 100 };
+    assert!(
+        differences <= allowed,
+        "{differences} of {hits} hits differ"
+    );
+}
+
 /// All triangles in the order in which the tracer counts them.
 fn world_triangles(scene: &Scene) -> Vec<Triangle> {
     let mut triangles = Vec::new();
@@ -117,16 +126,7 @@ fn traversal_on_the_device_is_that_of_obvhs_to_the_bit() {
         differences += usize::from(found != expected);
     }
     assert!(hits > rays.len() / 2, "only {hits} rays hit");
-    // Graphics cards may fuse multiply and add; software drivers compute as written.
-    let allowed = if gpu.is_software() {
-        0
-    } else {
-        rays.len() / 100
-    };
-    assert!(
-        differences <= allowed,
-        "{differences} of {hits} hits differ"
-    );
+    assert_equal_hits(&gpu, differences, hits, rays.len());
 }
 
 /// Spheres of one mesh, turned, stretched, mirrored and in other units, over a floor.
@@ -257,15 +257,7 @@ fn hits_of_instances_are_those_of_obvhs_and_of_trying_all() {
         differences += usize::from(!checks.iter().all(agrees));
     }
     assert!(hits > rays.len() / 10, "only {hits} rays hit");
-    let allowed = if gpu.is_software() {
-        0
-    } else {
-        rays.len() / 100
-    };
-    assert!(
-        differences <= allowed,
-        "{differences} of {hits} hits differ"
-    );
+    assert_equal_hits(&gpu, differences, hits, rays.len());
 }
 
 #[test]

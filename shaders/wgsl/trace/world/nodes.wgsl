@@ -1,5 +1,7 @@
 //!use trace/bindings
 //!use trace/ray
+//!use trace/world/instance
+//!use trace/world/levels
 // Nodes and triangles of a compressed wide BVH: Ylitie, Karras, Laine, Efficient Incoherent Ray Traversal
 // on GPUs Through Compressed Wide BVHs, HPG 2017. Node layout and order of visits are those of
 // the obvhs crate, whose CPU traversal gives the same hit to the bit where the device rounds
@@ -106,7 +108,10 @@ fn bvh_hit_triangle(index: u32, instance: u32, ray: Ray, hit: Hit) -> Hit {
     return hit;
 }
 
-// Of a triangle that no instance has: whether its surface may let rays through.
-fn bvh_triangle_is_veil(index: u32) -> bool {
-    return trace_triangles[index].edge1.w != 0.0;
+// Whether a surface may let rays through. Other ones stop a shadow ray wherever they are met.
+fn bvh_is_veil(hit: Hit) -> bool {
+    if WORLD_HAS_INSTANCES && hit.instance != 0u {
+        return instance_is_veil(hit.instance);
+    }
+    return trace_triangles[hit.triangle].edge1.w != 0.0;
 }

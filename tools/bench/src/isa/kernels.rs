@@ -6,7 +6,7 @@ use anyhow::{Context as _, Result};
 use vtex_format::{Features, SpecKey, VtexFile};
 use vtex_shaders::{
     BindingSlot, FilterMode, LinkContext, PackOptions, batch_kernel, fragment, link, scene_context,
-    spec_key,
+    spec_key, without_instances,
 };
 
 use crate::subject::FILTERS;
@@ -141,11 +141,6 @@ const WITH_INSTANCES: [&str; 4] = ["hit", "surface", "shade", "shadow"];
 /// then in stages.
 pub(crate) fn fragment_and_tracer() -> Result<Vec<Kernel>> {
     let mut kernels = Vec::new();
-    let one_level = |context: LinkContext| {
-        context
-            .fill("trace/bvh", "trace/world/bvh_one")
-            .fill("trace/world/levels", "trace/world/levels_one")
-    };
     for (name, features) in FEW {
         // Without paper mode: the batch kernels show what it costs.
         for (mode, filter) in modes(features & !Features::MSDF) {
@@ -160,7 +155,7 @@ pub(crate) fn fragment_and_tracer() -> Result<Vec<Kernel>> {
                 group: 1,
                 binding: 0,
             };
-            let context = one_level(scene_context(features, slot));
+            let context = without_instances(scene_context(features, slot));
             kernels.push(Kernel {
                 name: format!("path tracer, {name}, {mode}"),
                 wgsl: link("root/render", &context).context("the path tracer does not link")?,
@@ -169,14 +164,14 @@ pub(crate) fn fragment_and_tracer() -> Result<Vec<Kernel>> {
     }
     kernels.push(Kernel {
         name: "ray query".to_owned(),
-        wgsl: link("root/intersect", &one_level(LinkContext::default()))
+        wgsl: link("root/intersect", &without_instances(LinkContext::default()))
             .context("the ray query does not link")?,
     });
     // The fragments first, then the tracer.
     kernels.sort_by_key(|kernel| kernel.name.split(',').next().map(str::to_owned));
     let staged = || LinkContext::default().fill("trace/stack", "state/stack");
     let with = staged();
-    let without = one_level(staged());
+    let without = without_instances(staged());
     for (stage, context, of) in STAGES
         .map(|stage| (stage, &without, ""))
         .into_iter()
@@ -190,10 +185,11 @@ pub(crate) fn fragment_and_tracer() -> Result<Vec<Kernel>> {
     }
     for (name, features) in NAMED {
         for (mode, filter) in modes(features & !Features::MSDF) {
-            let context = scene_context(features | feature_of(filter), BindingSlot::default());
+            let context = scene_context(features | feature_of(filter), BindingSlot::default())
+                .fill("root/answer", "stage/answer");
             kernels.push(Kernel {
                 name: format!("stage lookups, {name}, {mode}"),
-                wgsl: link("stage/lookup", &context).context("the lookups do not link")?,
+                wgsl: link("root/batch", &context).context("the lookups do not link")?,
             });
         }
     }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, Result, ensure};
 use vtex_baker::Resources;
-use vtex_format::{CellWord, Entry, EntryKind, Grid, Image, SpecKey, VtexFile};
+use vtex_format::VtexFile;
 use vtex_runtime::{LoadOptions, Scene, TraceOptions, Tracer, scene};
 use vtex_scenes::showroom;
 
@@ -51,7 +51,9 @@ pub(crate) fn rays_table(
     let mut rasters = Vec::new();
     for (path, subject) in subjects {
         let image = rasterise(&read(path)?, resources, RASTER_SIZE);
-        let file = raster_file(&subject.file, image.with_context(|| subject.name.clone())?);
+        let mut meta = subject.file.meta.clone();
+        meta.curve_lattice = None;
+        let file = VtexFile::of_image(meta, image.with_context(|| subject.name.clone())?, false);
         let issues = file.check();
         ensure!(issues.is_empty(), "{}: {issues:?}", subject.name);
         rasters.push(file);
@@ -91,42 +93,6 @@ pub(crate) fn rays_table(
         )?);
     }
     Ok(table)
-}
-
-/// A texture of one cell whose only entry is `image`.
-fn raster_file(like: &VtexFile, image: Image) -> VtexFile {
-    let entry = Entry {
-        kind: EntryKind::Image,
-        last: true,
-        opaque: false,
-        index: 0,
-        data: 0,
-    };
-    let cell = CellWord::List { offset_words: 0 };
-    let mut file = VtexFile {
-        cells: cell.encode().into_iter().collect(),
-        entries: entry.encode().into_iter().flatten().collect(),
-        images: vec![image],
-        shapes: Vec::new(),
-        layers: Vec::new(),
-        tiles: Vec::new(),
-        curves: Vec::new(),
-        outlines: None,
-        provenance: None,
-        ..like.clone()
-    };
-    // Cells are square in user units.
-    let [width, height] = like.meta.canvas_size;
-    file.meta.grid = Grid {
-        size_cells: [1, 1],
-        cell_from_uv_scale: [width, height].map(|side| side / width.max(height)),
-        cell_from_uv_offset: [0.0, 0.0],
-        ..like.meta.grid
-    };
-    file.meta.curve_lattice = None;
-    file.spec.features = 0;
-    file.spec = SpecKey::for_file(&file);
-    file
 }
 
 fn film(device: &Device) -> [u32; 2] {

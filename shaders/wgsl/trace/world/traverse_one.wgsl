@@ -2,23 +2,7 @@
 //!use trace/ray
 //!use trace/stack
 //!use trace/world/nodes
-// Closest hit in a scene without instances: trace/bvh, with one level.
-
-// Whether a surface may let rays through. Other ones stop a shadow ray wherever they are met.
-fn bvh_is_veil(hit: Hit) -> bool {
-    return bvh_triangle_is_veil(hit.triangle);
-}
-
-// The nearest triangle nearer than ray.t_max, or a miss.
-fn bvh_closest(ray: Ray) -> Hit {
-    return bvh_traverse(ray, false);
-}
-
-// For shadow rays: any triangle nearer than ray.t_max that stops all rays; where none does, the nearest
-// of the others, or a miss.
-fn bvh_any(ray: Ray) -> Hit {
-    return bvh_traverse(ray, true);
-}
+// trace/world/traverse in scenes without instances: one level.
 
 fn bvh_traverse(ray: Ray, any_hit: bool) -> Hit {
     var hit = Hit(ray.t_max, TRACE_NONE, 0u, vec2f(0.0));
