@@ -138,7 +138,7 @@ impl BakeConfig {
             ),
             (
                 self.error_px > 0.0 && self.error_px.is_finite(),
-                "error bound must be positive",
+                "error bound must be positive and finite",
             ),
             (
                 self.smoothing > 0.0 && self.smoothing <= 0.5,

@@ -23,6 +23,15 @@ pub enum RuntimeError {
     #[cfg(any(feature = "zstd", feature = "ruzstd"))]
     #[error(transparent)]
     File(#[from] vtex_format::ReadError),
+    /// One of several files cannot be read.
+    #[cfg(any(feature = "zstd", feature = "ruzstd"))]
+    #[error("texture {index}, counted from 0: {source}")]
+    FileOf {
+        /// Which one, in the order in which they were given, from 0.
+        index: usize,
+        /// What is wrong with it.
+        source: vtex_format::ReadError,
+    },
     /// A shader or pipeline was refused: a defect of this crate or of a driver.
     #[error("shader: {0}")]
     Shader(String),

@@ -11,14 +11,14 @@
 //! [`Gpu::headless`] opens a device for programs that have none.
 //!
 //! ```no_run
-//! use vtex_runtime::{Limits, LoadOptions, TextureSet, TextureSetOptions, VtexFile, wgpu};
+//! use vtex_runtime::{Limits, LoadOptions, TextureSet, TextureSetOptions, wgpu};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! # let (device, queue): (wgpu::Device, wgpu::Queue) = unimplemented!();
 //! # let my_wgsl = "";
 //! let mut set = TextureSet::new(&device, &queue, &TextureSetOptions::default())?;
-//! let file = VtexFile::parse(&std::fs::read("sign.vtex")?, &Limits::default())?;
-//! let sign = set.add(&file, &LoadOptions::default())?;
+//! let file = std::fs::read("sign.vtex")?;
+//! let sign = set.load(&file, &Limits::default(), &LoadOptions::default())?;
 //! let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
 //!     label: None,
 //!     // Your fragment shader calls vtex_sample(handle, uv, vec4f(dpdx(uv), dpdy(uv))), with

@@ -39,7 +39,7 @@ pub use fine::{check_fine, fine_words};
 pub use layout::{BatchQuery, FilterMode, FootprintSamples};
 pub use link::{LinkContext, LinkError, link};
 #[cfg(feature = "decode")]
-pub use pack::{Loaded, load};
+pub use pack::{Loaded, load, load_in_pages};
 pub use pack::{PackOptions, pack, pack_in_pages, pack_set};
 pub use packed::{Packed, PackedSet};
 #[cfg(feature = "precompile")]

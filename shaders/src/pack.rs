@@ -138,6 +138,20 @@ pub fn load(
     limits: &vtex_format::Limits,
     options: &PackOptions,
 ) -> Result<Loaded, vtex_format::ReadError> {
+    load_in_pages(bytes, limits, options, MAX_PAGE_SIDE)
+}
+
+/// As [`load`], with pages as [`pack_in_pages`] has them.
+///
+/// # Errors
+/// As [`VtexFile::parse_unless`](vtex_format::VtexFile::parse_unless).
+#[cfg(feature = "decode")]
+pub fn load_in_pages(
+    bytes: &[u8],
+    limits: &vtex_format::Limits,
+    options: &PackOptions,
+    page_side: u32,
+) -> Result<Loaded, vtex_format::ReadError> {
     let mut grid = None;
     let file = VtexFile::parse_unless(bytes, limits, &mut |file| {
         grid = stored_grid(file, options);
@@ -147,7 +161,7 @@ pub fn load(
         Some(grid) => words_of(&file, options, &grid, fine::commands(&file)),
         None => texture_words(&file, options),
     };
-    let set = joined(std::iter::once((&file, words)), MAX_PAGE_SIDE);
+    let set = joined(std::iter::once((&file, words)), page_side);
     Ok(Loaded {
         packed: Packed {
             words: set.words,

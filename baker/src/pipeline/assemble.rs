@@ -75,7 +75,7 @@ pub(crate) fn assemble(
         // Mips are averages of lookups in the finished cells.
         observer(Stage::Mips);
         let words = canvas::add_mips(&mut file, size, config.mode);
-        gpu_budget::warn(&mut file, words, config.gpu_budget_bytes);
+        gpu_budget::warn(&mut file, words, config.mode, config.gpu_budget_bytes);
     }
     file.fine = match config.profile {
         Profile::Size => Vec::new(),

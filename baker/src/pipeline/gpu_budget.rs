@@ -5,12 +5,11 @@ use vtex_format::{
 };
 use vtex_shaders::{PackOptions, pack, page_bytes};
 
-use crate::{raster::canvas::LookedUp, warning};
+use crate::{Mode, raster::canvas::LookedUp, warning};
 
 /// Words of a texture, as loaders pack it, are at most this many times those that the lookups for mips
-/// read, and at least the inverse: of 276 drawings they are 0.60 to 2.03 times as many, of those with
-/// more than a megabyte at most 1.71 times. A drawing that is off by more is judged wrongly only if it
-/// is that close to its budget.
+/// read: of 276 drawings at most 2.03 times, of those with more than a megabyte 1.71 times. A drawing that is
+/// off by more gets no warning only if it is that close to its budget.
 const SPREAD: usize = 2;
 /// The same for drawings whose mips are made without lookups: at most this many times what cells,
 /// lists, curves, tiles and paints take in the file. The most of 276 drawings is 12.9.
@@ -18,55 +17,35 @@ const UNPACKED_SPREAD: usize = 16;
 
 /// Notes in the file's provenance that it takes more than `budget` bytes, if it does.
 ///
-/// Packing a texture to count its bytes may take half the time of a bake, so it is done only where
-/// bounds on them do not decide.
-pub(super) fn warn(file: &mut VtexFile, read: Option<LookedUp>, budget: u64) {
+/// Packing a texture to count its bytes may take half the time of a bake, so it is done only where a bound
+/// on them does not decide. The note says what was counted.
+pub(super) fn warn(file: &mut VtexFile, read: Option<LookedUp>, mode: Mode, budget: u64) {
     let texels = page_bytes(&file.images);
-    let words = WordBytes::of(file, read);
     let over = |words: usize| (words + texels) as u64 > budget;
-    if !over(words.most) {
+    if !over(most_word_bytes(file, read)) {
         return;
     }
-    let words = match over(words.least) {
-        true => words.about,
-        false => pack(file, &PackOptions::default()).word_bytes(),
-    };
+    let words = pack(file, &PackOptions::default()).word_bytes();
     if !over(words) {
         return;
     }
-    let message = message(&parts(file, words), budget);
+    let message = message(&parts(file, mode, words), budget);
     if let Some(provenance) = &mut file.provenance {
         let warning: Warning = warning::plain(WarningCode::GpuBytes, "gpu-budget", "", message);
-        provenance.warnings.push(warning);
+        // Others may be many, and tools show the first few.
+        provenance.warnings.insert(0, warning);
     }
 }
 
-/// Bounds on the bytes of a texture's words.
-struct WordBytes {
-    least: usize,
-    about: usize,
-    most: usize,
-}
-
-impl WordBytes {
-    fn of(file: &VtexFile, read: Option<LookedUp>) -> Self {
-        match read {
-            // A halving doubles the number of cells that hold a segment.
-            Some(read) => Self {
-                least: read.word_bytes / SPREAD,
-                about: read.word_bytes << read.fewer_halvings,
-                most: SPREAD * (read.word_bytes << read.fewer_halvings),
-            },
-            None => {
-                let words = file.cells.len() + file.entries.len() + file.curves.len();
-                let paints = size_of_val(&*file.paints) + size_of_val(&*file.gradients);
-                let stored = 4 * words + file.tiles.len() + paints;
-                Self {
-                    least: 0,
-                    about: stored,
-                    most: UNPACKED_SPREAD * stored,
-                }
-            }
+/// A bound on the bytes of a texture's words.
+fn most_word_bytes(file: &VtexFile, read: Option<LookedUp>) -> usize {
+    match read {
+        // A halving doubles the number of cells that hold a segment.
+        Some(read) => SPREAD * (read.word_bytes << read.fewer_halvings),
+        None => {
+            let words = file.cells.len() + file.entries.len() + file.curves.len();
+            let paints = size_of_val(&*file.paints) + size_of_val(&*file.gradients);
+            UNPACKED_SPREAD * (4 * words + file.tiles.len() + paints)
         }
     }
 }
@@ -74,8 +53,8 @@ impl WordBytes {
 /// A part of a texture: its name, its bytes, and how to make it smaller.
 type Part = (&'static str, usize, &'static str);
 
-/// What a texture with so many bytes of words consists of, the largest part first.
-fn parts(file: &VtexFile, words: usize) -> Vec<Part> {
+/// What a texture of this mode with so many bytes of words consists of, the largest part first.
+fn parts(file: &VtexFile, mode: Mode, words: usize) -> Vec<Part> {
     let is_embedded = embedded(file);
     let images = |embedded: bool| {
         let chosen = is_embedded.iter().filter(move |(_, is)| *is == embedded);
@@ -88,7 +67,10 @@ fn parts(file: &VtexFile, words: usize) -> Vec<Part> {
         (
             "raster patches",
             images(false),
-            "the warnings about raster patches name what no shape can be",
+            match mode {
+                Mode::Raster => "--mode auto keeps as shapes what can be",
+                _ => "the warnings about raster patches name what no shape can be",
+            },
         ),
         (
             "embedded images",
@@ -98,12 +80,12 @@ fn parts(file: &VtexFile, words: usize) -> Vec<Part> {
         (
             "mips",
             page_bytes(&file.images[..1.min(file.images.len())]),
-            "a smaller option size halves them",
+            "a smaller --size makes fewer of them",
         ),
         (
             "MSDF tiles",
             file.tiles.len(),
-            "a smaller option msdf-size makes fewer of them",
+            "a smaller --msdf-size makes fewer of them",
         ),
         (
             "cells and segments",
@@ -158,7 +140,7 @@ fn size(bytes: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BakeConfig, Mode, Resources, bake};
+    use crate::{BakeConfig, Resources, bake};
 
     const CURVES: &str = "<path d='M5 5C90 10 10 90 95 95L60 5Z'/>";
     const BLURRED: &str = "<filter id='f'><feTurbulence baseFrequency='.4'/></filter>\

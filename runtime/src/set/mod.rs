@@ -1,6 +1,8 @@
 //! Any number of vector textures for one pipeline.
 
 mod handles;
+#[cfg(any(feature = "zstd", feature = "ruzstd"))]
+mod load;
 mod memory;
 mod options;
 mod pages;
@@ -21,7 +23,7 @@ use crate::load::texture_layout;
 use crate::{LoadOptions, RuntimeError};
 
 use memory::{Change, Fixed, Memory};
-use pools::{Budget, PoolPlans};
+use pools::{Budget, Made, PoolPlans};
 use space::{Plan, Space};
 
 pub use options::TextureSetOptions;
@@ -32,13 +34,12 @@ pub use options::TextureSetOptions;
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// # let (device, queue): (wgpu::Device, wgpu::Queue) = unimplemented!();
 /// # let (my_wgsl, signs): (&str, Vec<Vec<u8>>) = ("", vec![]);
-/// use vtex_runtime::{Limits, LoadOptions, TextureSet, TextureSetOptions, VtexFile, parse_all, wgpu};
+/// use vtex_runtime::{Limits, LoadOptions, TextureSet, TextureSetOptions, wgpu};
 ///
 /// let mut set = TextureSet::new(&device, &queue, &TextureSetOptions::default())?;
-/// let files = parse_all(&signs, &Limits::default()).into_iter(); // by all cores, as what follows
-/// let files: Vec<VtexFile> = files.collect::<Result<_, _>>()?;
 /// let options = LoadOptions::default();
-/// let handles = set.add_all(files.iter().map(|file| (file, &options)))?;
+/// let files = signs.iter().map(|bytes| (&bytes[..], &options));
+/// let handles = set.load_all(files, &Limits::default())?; // by all cores
 /// let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
 ///     label: None,
 ///     // `vtex_sample(handle, uv, vec4f(dpdx(uv), dpdy(uv)))` in a fragment shader.
@@ -134,7 +135,7 @@ impl TextureSet {
     /// A set without textures.
     ///
     /// # Errors
-    /// [`RuntimeError::Device`] when the device refuses a buffer of 16 KiB or is lost.
+    /// [`RuntimeError::Parameter`] for options out of their range, and [`RuntimeError::Device`] when the device refuses a buffer of 16 KiB or is lost.
     #[cfg(all(feature = "blocking", not(target_arch = "wasm32")))]
     pub fn new(
         device: &Device,
@@ -147,12 +148,13 @@ impl TextureSet {
     /// As `TextureSet::new`, for callers that must not block.
     ///
     /// # Errors
-    /// [`RuntimeError::Device`] when the device refuses a buffer of 16 KiB or is lost.
+    /// [`RuntimeError::Parameter`] for options out of their range, and [`RuntimeError::Device`] when the device refuses a buffer of 16 KiB or is lost.
     pub async fn new_async(
         device: &Device,
         queue: &Queue,
         options: &TextureSetOptions,
     ) -> Result<Self, RuntimeError> {
+        options.check()?;
         let (fixed, pools) = checked(device, "texture set", || {
             let fixed = Fixed {
                 layout: texture_layout(device),
@@ -233,13 +235,33 @@ impl TextureSet {
             .into_iter()
             .map(|(file, options)| (file, &options.pack))
             .collect();
+        self.add_made(&textures, |&(file, options), page_side| {
+            Ok(Made {
+                packed: pack_in_pages(file, options, page_side),
+                features: spec_key(file, options).features,
+            })
+        })
+        .await
+    }
+
+    /// Adds what `make` makes of each of `textures`, with pages of so many texels a side, on all cores.
+    async fn add_made<T: Sync>(
+        &mut self,
+        textures: &[T],
+        make: impl Fn(&T, u32) -> Result<Made, RuntimeError> + Sync,
+    ) -> Result<Vec<TextureHandle>, RuntimeError> {
         let options = &self.options;
         let bounds = options.bounds(&self.device, self.fixed.nothing.len());
         let budget = Budget::new(options, &bounds, &self.bytes());
-        let mut packed = map_all(&textures, options.threads, |&(file, options)| {
-            budget.spend(|| pack_in_pages(file, options, bounds.pages.side))
+        let made = map_all(textures, options.threads, |texture| {
+            budget.spend(|| make(texture, bounds.pages.side))
         });
+        let made: Vec<Made> = made.into_iter().collect::<Result<_, _>>()?;
         budget.check()?;
+        let needed = made
+            .iter()
+            .fold(self.key.features, |all, made| all | made.features);
+        let mut packed: Vec<Packed> = made.into_iter().map(|made| made.packed).collect();
         let spaces = self.pools.iter().map(|pool| &pool.space);
         let PoolPlans { plans, handles } =
             pools::plan(spaces, &mut packed, &bounds, options.most_pools())?;
@@ -253,11 +275,6 @@ impl TextureSet {
             pools.collect::<Result<Vec<Pool>, RuntimeError>>()
         })
         .await?;
-        let needed = textures
-            .iter()
-            .fold(self.key.features, |all, (file, options)| {
-                all | spec_key(file, options).features
-            });
         self.key = set_key(needed);
         self.commit(changed);
         Ok(handles)

@@ -1,11 +1,14 @@
 //! What a caller may decide about a set, and what the device decides.
 
+use vtex_format::Features;
+use vtex_shaders::MAX_PAGE_SIDE;
 use vtex_shaders::layout::FilterMode;
 use vtex_shaders::set::{MAX_POOLS, every_feature};
 use wgpu::Device;
 
 use super::pages::PageLimits;
 use super::space::Bounds;
+use crate::RuntimeError;
 
 /// The table has the first word of a texture as a `u32`.
 const COUNTED_BYTES: u64 = 1 << 34;
@@ -56,6 +59,29 @@ impl TextureSetOptions {
             features: every_feature(filter),
             ..Self::default()
         }
+    }
+
+    /// # Errors
+    /// [`RuntimeError::Parameter`] for a value out of its range.
+    pub(super) fn check(&self) -> Result<(), RuntimeError> {
+        let refused = |text: String| Err(RuntimeError::Parameter(text));
+        if !(1..=MAX_POOLS).contains(&self.max_pools) {
+            let pools = self.max_pools;
+            return refused(format!("`max_pools` is {pools}: from 1 to {MAX_POOLS}"));
+        }
+        if !(1..=MAX_PAGE_SIDE).contains(&self.page_side) {
+            let side = self.page_side;
+            return refused(format!("`page_side` is {side}: from 1 to {MAX_PAGE_SIDE}"));
+        }
+        if self.features & !Features::ALL != 0 {
+            let features = self.features;
+            return refused(format!(
+                "`features` is {features:#x}: bits of `Features`, {:#x} in all; \
+                 `TextureSetOptions::every_feature` has those of a filter mode",
+                Features::ALL
+            ));
+        }
+        Ok(())
     }
 
     /// How many pools there may be.

@@ -91,6 +91,14 @@ fn full(reason: &str, max_pools: u32) -> String {
     )
 }
 
+/// A texture that is to be added.
+#[derive(Debug, Default)]
+pub(super) struct Made {
+    pub(super) packed: Packed,
+    /// What its lookups need code for, bits of [`vtex_format::Features`].
+    pub(super) features: u32,
+}
+
 /// What textures may take together: known before all of them are packed.
 #[derive(Debug)]
 pub(super) struct Budget {
@@ -115,16 +123,20 @@ impl Budget {
     }
 
     /// What `pack` makes; nothing where textures are too many already, which [`Budget::check`] tells.
-    pub(super) fn spend(&self, pack: impl FnOnce() -> Packed) -> Packed {
+    ///
+    /// # Errors
+    /// Those of `pack`.
+    pub(super) fn spend<E>(&self, pack: impl FnOnce() -> Result<Made, E>) -> Result<Made, E> {
         if self.passed().is_some() {
-            return Packed::default();
+            return Ok(Made::default());
         }
-        let packed = pack();
-        let words = packed.word_bytes() as u64;
-        for (spent, bytes) in self.spent.iter().zip([words, words + texel_bytes(&packed)]) {
+        let made = pack()?;
+        let words = made.packed.word_bytes() as u64;
+        let all = words + texel_bytes(&made.packed);
+        for (spent, bytes) in self.spent.iter().zip([words, all]) {
             spent.fetch_add(bytes, Ordering::Relaxed);
         }
-        packed
+        Ok(made)
     }
 
     /// Which of the two is passed, and the bytes so far.

@@ -15,8 +15,8 @@ use std::collections::BTreeSet;
 
 use vtex_format::{Features, VtexFile};
 use vtex_runtime::{
-    BatchQuery, BatchSampler, FilterMode, Gpu, LoadOptions, TextureHandle, TextureQuery,
-    TextureSet, TextureSetOptions, Trust, wgpu,
+    BatchQuery, BatchSampler, FilterMode, Gpu, Limits, LoadOptions, RuntimeError, TextureHandle,
+    TextureQuery, TextureSet, TextureSetOptions, Trust, wgpu,
 };
 use vtex_shaders::{pack, spec_key};
 use vtex_tests::fixture::random_texture;
@@ -217,6 +217,85 @@ fn three_textures_in_one_shader_answer_as_each_alone() {
         assert_as_alone(gpu, (file, options), index, &queries, &ours);
         let shown: BTreeSet<_> = ours.iter().map(|c| c.map(f32::to_bits)).collect();
         assert!(shown.len() > 10, "texture {index} shows something");
+    }
+}
+
+#[test]
+fn bytes_of_files_become_the_same_textures() {
+    let Some(gpu) = gpu() else { return };
+    let options = options(FilterMode::Point);
+    let files = [file(0), file(2)];
+    let bytes = files.each_ref().map(|file| file.to_bytes().unwrap());
+    let mut read = set(gpu, &TextureSetOptions::default());
+    let limits = Limits::default();
+    let all = bytes.iter().map(|bytes| (&bytes[..], &options));
+    let handles = read.load_all(all.clone(), &limits).unwrap();
+    let mut added = set(gpu, &TextureSetOptions::default());
+    let same = added.add_all(files.iter().map(|file| (file, &options)));
+    assert_eq!(handles, same.unwrap());
+    assert_eq!((read.key(), read.bytes()), (added.key(), added.bytes()));
+    let [ours, theirs] = [&read, &added].map(|set| Shader::new(gpu, set));
+    for &handle in &handles {
+        let queries = of(handle, &random_queries(7, 1000, 0.3));
+        assert_eq!(
+            ours.run(gpu, read.bind_group(), &queries),
+            theirs.run(gpu, added.bind_group(), &queries)
+        );
+    }
+    let broken = all.chain([(&b"no file"[..], &options)]);
+    let error = read.load_all(broken, &limits).unwrap_err();
+    assert!(
+        matches!(error, RuntimeError::FileOf { index: 2, .. }),
+        "{error}"
+    );
+    assert_eq!(read.len(), 2, "all of them or none");
+}
+
+#[test]
+fn options_out_of_their_range_are_refused() {
+    let Some(gpu) = gpu() else { return };
+    let good = TextureSetOptions::default();
+    let bad = [
+        (
+            TextureSetOptions {
+                max_pools: 0,
+                ..good
+            },
+            "max_pools",
+        ),
+        (
+            TextureSetOptions {
+                max_pools: 33,
+                ..good
+            },
+            "max_pools",
+        ),
+        (
+            TextureSetOptions {
+                page_side: 0,
+                ..good
+            },
+            "page_side",
+        ),
+        (
+            TextureSetOptions {
+                page_side: 8193,
+                ..good
+            },
+            "page_side",
+        ),
+        (
+            TextureSetOptions {
+                features: u32::MAX,
+                ..good
+            },
+            "features",
+        ),
+    ];
+    for (options, named) in bad {
+        let error = TextureSet::new(&gpu.device, &gpu.queue, &options).unwrap_err();
+        assert!(matches!(error, RuntimeError::Parameter(_)), "{error}");
+        assert!(error.to_string().contains(named), "{error}");
     }
 }
 

@@ -52,7 +52,9 @@ pub(super) fn bytes(text: &str) -> Result<u64, String> {
     let count = digits.parse::<u64>().ok().zip(unit);
     count
         .and_then(|(count, unit)| count.checked_mul(unit))
-        .ok_or_else(|| "expected a number of bytes, such as 65536, 64K or 4M".to_owned())
+        .ok_or_else(|| {
+            "expected a number of bytes, such as 65536, 64K, 4M or 2G, in units of 1024".to_owned()
+        })
 }
 
 fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {

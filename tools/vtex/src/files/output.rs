@@ -171,7 +171,16 @@ pub(crate) fn write_apart(path: &Path, bytes: &[u8], taken: &BTreeSet<PathBuf>) 
 /// # Errors
 /// When it cannot be created.
 pub(crate) fn create_folder(path: &Path) -> Outcome<()> {
-    fs::create_dir_all(path).map_err(|error| Failure::io("create the folder", path, &error))
+    fs::create_dir_all(path).map_err(|error| match path.is_file() {
+        true => Failure::new(
+            ExitCode::Io,
+            format!(
+                "{}: this is a file; name a folder for several outputs",
+                path.display()
+            ),
+        ),
+        false => Failure::io("create the folder", path, &error),
+    })
 }
 
 #[cfg(test)]

@@ -32,7 +32,7 @@ pub(super) fn run(args: &Info, console: Console) -> Outcome<ExitCode> {
     let bytes = input::read(&args.file)?;
     let begun = Instant::now();
     let file = texture::parse(&args.file, &bytes)?;
-    let on_gpu = OnGpu::new(&file, begun.elapsed());
+    let on_gpu = OnGpu::new(&bytes, &file, begun.elapsed());
     let directory = directory(&bytes, &Limits::default())
         .map_err(|error| texture::read_failure(&args.file, &error))?;
     match console.format {
