@@ -14,7 +14,7 @@ use vtex_format::shader_dictionaries;
 use vtex_shaders::{dictionary_keys, shader_blob};
 
 /// The newest store.
-const STORE: &str = "../format/src/packing/shaders-4.bin";
+const STORE: &str = "../format/src/packing/shaders-5.bin";
 
 fn main() -> Result<(), Box<dyn Error>> {
     let keys = dictionary_keys();

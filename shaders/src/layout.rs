@@ -152,11 +152,12 @@ mod cell = "CELL" {
     DEPTH_SHIFT = BLOCK_SHIFT - 3;
     /// The greatest depth, and the bits of one.
     DEPTH_MASK = 7;
-    /// Bits of a block's place: its first word behind that of the first base cell, in groups of
-    /// `BLOCK_WORDS`.
-    PLACE_MASK = (1 << DEPTH_SHIFT) - 1;
-    /// Each block takes a multiple of so many words.
-    BLOCK_WORDS = 4;
+    /// Position of the bit that says that a block's cells are [`half`](super::half) words.
+    NARROW_SHIFT = DEPTH_SHIFT - 1;
+    /// That bit.
+    NARROW_BIT = 1 << NARROW_SHIFT;
+    /// Bits of a block's place: its first word behind that of the first base cell.
+    PLACE_MASK = NARROW_BIT - 1;
     /// Position of a float's exponent: a depth added there multiplies by 2^depth.
     EXPONENT_SHIFT = f32::MANTISSA_DIGITS - 1;
     /// Tag of an empty cell.
@@ -169,10 +170,26 @@ mod cell = "CELL" {
     GROUPS = 3;
 }
 
+/// Cells of a narrow block, two to a word, the first in the low half. Ahead of them is a word: the first
+/// command that the block's lists count from.
+mod half = "HALF" {
+    /// How many bits a cell has.
+    BITS = 16;
+    /// A cell's bits.
+    MASK = (1 << BITS) - 1;
+    /// Position of the tag, which is as in a whole word.
+    TAG_SHIFT = BITS - 2;
+    /// Bits below the tag: of a list its first command, counted from the block's; else as in a whole word.
+    PAYLOAD_MASK = (1 << TAG_SHIFT) - 1;
+}
+
 /// A command of a list, four words. Curves are a command a segment: upper end, control point, lower
 /// end (x in the low half, y in the high half) and the tag, the word whose parts these are. Any
 /// other entry is one command whose first word is [`vtex_format::Entry::data`]. The last command of
 /// an entry carries what belongs to all of it: index, base, kind, rule, opaque and last.
+///
+/// Where a list for points ends with two opaque entries, curves and a paint that fills the cell, both are
+/// one entry, with [`BACKDROP_BIT`](cmd::BACKDROP_BIT). A third of all entries are such backdrops.
 ///
 /// An entry that draws nothing has [`CONTROL_BIT`](cmd::CONTROL_BIT) there. A branch is curves;
 /// others are one command whose kind is full, with [`JUMP`](cmd::JUMP), [`OPEN`](cmd::OPEN),
@@ -187,6 +204,13 @@ mod cmd = "CMD" {
     INDEX_MASK = vtex_format::MAX_INDEXED - 1;
     /// Set in the last command of a control entry, which draws nothing.
     CONTROL_BIT = 1 << 18;
+    /// Set in the last command of a list whose outline is opaque and lies over an opaque paint that fills
+    /// the cell: the index is two of them. Lists for footprints have none.
+    BACKDROP_BIT = 1 << 19;
+    /// Position of the index of the paint behind.
+    BACKDROP_SHIFT = INDEX_MASK.count_ones() / 2;
+    /// Bits of either of the two.
+    BACKDROP_MASK = (1 << BACKDROP_SHIFT) - 1;
     /// Left shift that brings the base winding, four bits in two's complement, to the word's top.
     BASE_LEFT = 8;
     /// Right shift that brings it down from there.
@@ -374,6 +398,18 @@ pub(crate) fn has_list(word: u32) -> bool {
 /// Whether the word of a base cell names a block.
 pub(crate) const fn is_block(word: u32) -> bool {
     word >> cell::BLOCK_SHIFT == cell::BLOCK
+}
+
+/// The paints that a drawing entry with this tag names: its own, or that and the one behind it.
+pub(crate) fn entry_paints(tag: u32) -> impl Iterator<Item = u32> {
+    let (own, behind) = match tag & cmd::BACKDROP_BIT {
+        0 => (tag & cmd::INDEX_MASK, None),
+        _ => (
+            tag & cmd::BACKDROP_MASK,
+            Some(tag >> cmd::BACKDROP_SHIFT & cmd::BACKDROP_MASK),
+        ),
+    };
+    std::iter::once(own).chain(behind)
 }
 
 /// What a lookup returns of the picture that the cells show.

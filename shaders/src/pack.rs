@@ -198,7 +198,12 @@ fn words_of(file: &VtexFile, options: &PackOptions, grid: &Grid, commands: &[u32
     let base = [right, bottom, grid.base_per_cell(), columns].map(f32::to_bits);
     words[header::BASE as usize..][..4].copy_from_slice(&base);
     words.reserve(grid.words.len() + commands.len() + file.tiles.len() / 4);
-    section(&mut words, header::CELLS, &grid.words);
+    match options.filter {
+        FilterMode::Footprint => section(&mut words, header::CELLS, &grid.words),
+        FilterMode::Point | FilterMode::Paper => {
+            section(&mut words, header::CELLS, &grid.narrowed());
+        }
+    }
     section(&mut words, header::COMMANDS, commands);
     paint_section(&mut words, file);
     let texels = file.tiles.chunks_exact(4);

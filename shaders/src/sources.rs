@@ -60,6 +60,7 @@ sources! {
     "trace/world/nodes",
     "trace/world/traverse",
     "trace/world/traverse_one",
+    "vtex/backdrop",
     "vtex/blend",
     "vtex/cell",
     "vtex/cell_level",

@@ -8,7 +8,7 @@ use crate::records::paint::PaintRecord;
 
 /// Version of the packed words and bindings shared by shaders and loaders. A file whose shader
 /// blob carries another ABI is evaluated with the runtime's own text.
-pub const SHADER_ABI: u32 = 4;
+pub const SHADER_ABI: u32 = 5;
 /// Keys of files are read from this ABI on: they are the same features.
 pub(crate) const OLDEST_ABI: u32 = 2;
 

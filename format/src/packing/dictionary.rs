@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 
 /// All stores, the newest last. Writers use the newest. A store that a released version wrote with
 /// stays, so that its files can be read.
-const STORES: [&[u8]; 1] = [include_bytes!("shaders-4.bin")];
+const STORES: [&[u8]; 1] = [include_bytes!("shaders-5.bin")];
 
 /// Bytes of an id.
 pub(super) const ID_BYTES: usize = 4;

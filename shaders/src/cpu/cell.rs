@@ -4,7 +4,7 @@ use super::Sampler;
 use super::cost::Observer;
 use super::math::{clamp, to_u32};
 use super::plane::Vec2;
-use crate::layout::{cell, is_block};
+use crate::layout::{cell, half, has_list, is_block};
 
 /// A cell of the packed words.
 #[derive(Clone, Copy, Debug)]
@@ -111,13 +111,31 @@ fn of_block(
     let mut found = Cell { word, per_cell, at };
     if is_block(word) {
         let inside = at.map(|at| to_u32(at) & ((1 << depth) - 1));
-        let first = (word & cell::PLACE_MASK).wrapping_mul(cell::BLOCK_WORDS);
         let index = (inside[1] << depth).wrapping_add(inside[0]);
-        let first = s.cells.wrapping_add(first).wrapping_add(skipped);
-        found.word = sampler.word(first.wrapping_add(index));
+        found.word = in_block(sampler, word, index.wrapping_add(skipped));
         observer.cell();
     }
     found
+}
+
+/// The word of a cell of a block.
+fn in_block(sampler: &Sampler<'_>, block: u32, index: u32) -> u32 {
+    let first = sampler
+        .settings
+        .cells
+        .wrapping_add(block & cell::PLACE_MASK);
+    if block & cell::NARROW_BIT == 0 {
+        return sampler.word(first.wrapping_add(index));
+    }
+    let pair = sampler.word(first.wrapping_add(1).wrapping_add(index / 2));
+    let half = pair >> ((index & 1) * half::BITS) & half::MASK;
+    let word = half >> half::TAG_SHIFT << cell::TAG_SHIFT;
+    let lists = if has_list(word) {
+        sampler.word(first)
+    } else {
+        0
+    };
+    word | (half & half::PAYLOAD_MASK).wrapping_add(lists)
 }
 
 /// The corner of the file's cell that `p` lies in.

@@ -4,6 +4,7 @@
 //!
 //! Where the WGSL is specialised by choosing modules, the twin asks the header.
 
+mod backdrop;
 mod blend;
 mod brush;
 mod cell;

@@ -1,5 +1,6 @@
 //! Twin of `vtex/paper.wgsl`: the filter of \[SFG22\], as a baseline.
 
+use super::backdrop::backdrop;
 use super::brush;
 use super::color;
 use super::edge::{Edge, taken, target};
@@ -34,6 +35,7 @@ pub(super) fn paper<S: Samples>(
         }
         let mut inner = 1.0;
         let mut outer = 0.0;
+        let mut shown = tag;
         if tag & cmd::KIND_MASK == cmd::MSDF {
             let distance = msdf::distance(sampler, words[0], samples.centre());
             inner = ramp(sampler, distance);
@@ -43,7 +45,8 @@ pub(super) fn paper<S: Samples>(
         } else {
             let mut covered = edge.covered(sampler, samples, words, 1);
             if tag & cmd::CONTROL_BIT == 0 {
-                covered = brush::covered(sampler, samples, tag, covered);
+                (shown, covered) = backdrop(tag, covered, 1);
+                covered = brush::covered(sampler, samples, shown, covered);
             }
             if covered & 1 == 0 {
                 inner = 0.0;
@@ -57,7 +60,7 @@ pub(super) fn paper<S: Samples>(
         } else {
             // Shape and ring exclude each other: both lie over what is behind.
             let mut entry = [0.0; 4];
-            for (share, tag) in [(inner, tag), ((outer - inner).max(0.0), s.outline_tag)] {
+            for (share, tag) in [(inner, shown), ((outer - inner).max(0.0), s.outline_tag)] {
                 if share > 0.0 {
                     let brush = brush::brush(sampler, tag, samples.uv(1), lookup).encoded;
                     entry = std::array::from_fn(|i| entry[i] + share * brush[i]);

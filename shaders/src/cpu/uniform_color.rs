@@ -4,7 +4,7 @@ use super::cell::{Cell, cell};
 use super::math::{clamp, to_f32, to_u32};
 use super::picture::point;
 use super::{Lookup, Sampler, paint, segment};
-use crate::layout::{cell, cmd, filter};
+use crate::layout::{cell, cmd, entry_paints, filter};
 
 impl Sampler<'_> {
     /// The one colour, in linear light, premultiplied, that cells show to point lookups with uv in
@@ -101,7 +101,7 @@ impl Sampler<'_> {
             if kind == cmd::MSDF || kind == cmd::IMAGE {
                 return false;
             }
-            if end && self.varies(tag & cmd::INDEX_MASK) {
+            if end && entry_paints(tag).any(|paint| self.varies(paint)) {
                 return false;
             }
             if !full && !segment::is_constant(words, low, high) {

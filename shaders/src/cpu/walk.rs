@@ -7,6 +7,7 @@
 
 use vtex_format::Features;
 
+use super::backdrop::backdrop;
 use super::brush::{self, BrushColor};
 use super::color;
 use super::cost::Observer;
@@ -73,7 +74,8 @@ pub(super) fn walk<S: Samples>(
                 continue;
             }
         } else {
-            composite.draw(sampler, lookup, samples, covered, tag, observer);
+            let (shown, met) = backdrop(tag, covered, composite.live);
+            composite.draw(sampler, lookup, samples, met, shown, observer);
             let ring = ring(sampler, samples, words, covered, composite.live);
             let tag = sampler.settings.outline_tag;
             composite.draw(sampler, lookup, samples, ring, tag, observer);

@@ -50,8 +50,7 @@ pub(super) fn grid(stored: &[u32], lists: &[u32], shape: &Shape) -> Option<Grid>
     }
     let size = base_size(shape.cells.map(|count| count as usize), shape.side);
     let base = size[0].checked_mul(size[1])?;
-    let blocks = base.checked_next_multiple_of(cell::BLOCK_WORDS as usize)?;
-    if blocks > stored.len() {
+    if base > stored.len() {
         return None;
     }
     let mut next = 0_u32;
@@ -68,10 +67,10 @@ pub(super) fn grid(stored: &[u32], lists: &[u32], shape: &Shape) -> Option<Grid>
         }
     };
     let mut words = Vec::with_capacity(stored.len());
-    let mut end = blocks;
+    let mut end = base;
     for &word in &stored[..base] {
         words.push(match is_block(word) {
-            true => block(word, blocks, &mut end, shape).then_some(word)?,
+            true => block(word, base, &mut end, shape).then_some(word)?,
             false => leaf(word)?,
         });
     }
@@ -93,12 +92,12 @@ pub(super) fn grid(stored: &[u32], lists: &[u32], shape: &Shape) -> Option<Grid>
 /// the next one.
 fn block(word: u32, first: usize, end: &mut usize, shape: &Shape) -> bool {
     let depth = word >> cell::DEPTH_SHIFT & cell::DEPTH_MASK;
-    let place = (word & cell::PLACE_MASK) as usize * cell::BLOCK_WORDS as usize;
+    let place = (word & cell::PLACE_MASK) as usize;
     let behind = place + block_words(shape.side, depth, shape.has_levels);
     if place == *end {
         *end = behind;
     }
-    depth > 0 && place >= first && behind <= *end
+    depth > 0 && word & cell::NARROW_BIT == 0 && place >= first && behind <= *end
 }
 
 #[cfg(test)]
@@ -126,18 +125,16 @@ mod tests {
     #[test]
     fn stored_words_come_back() {
         let commands = [0, 0, 0, 0, cmd::LAST_BIT, cmd::LAST_BIT].map(|tag| [0, 0, 0, tag]);
-        let words = [
-            [block_at(1, 1), SOLID | 1, block_at(1, 1), 0],
-            [LIST, LIST | 5, 0, LIST],
-        ];
-        let stored: Vec<u32> = stored(words.as_flattened(), &commands).collect();
-        assert_eq!(stored[4..], [LIST, LIST, 0, LIST | 2]);
-        assert_eq!(made(&stored).as_deref(), Some(words.as_flattened()));
+        let base = [block_at(3, 1), SOLID | 1, block_at(3, 1)];
+        let words = [&base[..], &[LIST, LIST | 5, 0, LIST]].concat();
+        let stored: Vec<u32> = stored(&words, &commands).collect();
+        assert_eq!(stored[3..], [LIST, LIST, 0, LIST | 2]);
+        assert_eq!(made(&stored).as_ref(), Some(&words));
     }
 
     #[test]
     fn words_that_name_nothing_are_refused() {
-        let sound = [block_at(1, 1), SOLID, 0, 0, LIST, LIST, 0, 0];
+        let sound = [block_at(3, 1), SOLID, 0, LIST, LIST, 0, 0];
         assert!(made(&sound).is_some());
         let with = |at: usize, word| {
             let mut words = sound;
@@ -150,16 +147,17 @@ mod tests {
             ("a list too many", 6, LIST | 0x3fff_ffff),
             ("a third list", 6, LIST),
             ("a list with groups", 6, LIST | SOLID | 2),
-            ("a block in a block", 6, block_at(1, 1)),
+            ("a block in a block", 6, block_at(3, 1)),
             ("a block among base cells", 0, block_at(0, 1)),
-            ("a block behind the end", 2, block_at(2, 1)),
-            ("a block across the end", 0, block_at(1, 2)),
-            ("a block without cells", 0, block_at(1, 0)),
+            ("a block behind the end", 2, block_at(7, 1)),
+            ("a block across the end", 0, block_at(3, 2)),
+            ("a block without cells", 0, block_at(3, 0)),
+            ("a narrow block", 0, cell::NARROW_BIT | block_at(3, 1)),
             ("no block where words are", 0, 0),
         ] {
             assert_eq!(with(at, word), None, "{what}");
         }
-        assert_eq!(made(&sound[..3]), None, "too few words");
+        assert_eq!(made(&sound[..2]), None, "too few words");
         assert_eq!(made(&[&sound[..], &[0; 4]].concat()), None, "too many");
         let beside = |side| grid(&sound, &[LIST, LIST], &Shape { side, ..SHAPE });
         assert_eq!(
@@ -175,8 +173,8 @@ mod tests {
             ..SHAPE
         };
         // A block of 4 x 4 cells, and one cell for all of it.
-        let words = |length| [vec![block_at(1, 2), 0, 0, 0], vec![0; length]].concat();
-        assert!(grid(&words(20), &[], &shape).is_some());
+        let words = |length| [vec![block_at(3, 2), 0, 0], vec![0; length]].concat();
+        assert!(grid(&words(17), &[], &shape).is_some());
         assert!(grid(&words(16), &[], &shape).is_none());
         assert!(grid(&words(16), &[], &SHAPE).is_some());
     }

@@ -7,7 +7,7 @@ use vtex_format::{
     BlendMode, Features, MAX_BLEND_DEPTH, MAX_ENTRIES_PER_CELL, SHALLOW_BLEND_DEPTH, VtexFile,
 };
 
-use crate::layout::{cell, cmd};
+use crate::layout::{cell, cmd, entry_paints};
 
 /// What the commands of a file may name.
 #[derive(Clone, Copy, Debug)]
@@ -109,10 +109,17 @@ impl Tables {
                 let tile = command[0] as usize;
                 self.has(Features::MSDF) && index < self.paints && tile < self.tiles
             }
-            cmd::CURVES => self.has(Features::CURVES) && index < self.paints,
+            cmd::CURVES => self.has(Features::CURVES) && self.has_paints(tag, walk),
             _ => index < self.paints,
         };
         known && self.has(Features::LISTS)
+    }
+
+    /// Whether there are the paints of a curve entry. Two of them are for the end of a list without groups.
+    fn has_paints(&self, tag: u32, walk: &Walk) -> bool {
+        let both = tag & cmd::BACKDROP_BIT != 0;
+        let may_be_both = tag & cmd::LAST_BIT != 0 && !walk.has_groups;
+        entry_paints(tag).all(|paint| (paint as usize) < self.paints) && (!both || may_be_both)
     }
 
     fn control(&self, at: usize, command: &[u32; 4], walk: &mut Walk) -> bool {

@@ -55,7 +55,7 @@ impl Block {
     /// Of a base cell's word.
     fn of(word: u32) -> Option<Self> {
         is_block(word).then_some(Self {
-            first: ((word & cell::PLACE_MASK) * cell::BLOCK_WORDS) as usize,
+            first: (word & cell::PLACE_MASK) as usize,
             depth: word >> cell::DEPTH_SHIFT & cell::DEPTH_MASK,
         })
     }
@@ -372,6 +372,7 @@ mod tests {
             cells: cells.collect(),
             trees,
             has_levels: false,
+            narrows: false,
         }
     }
 
@@ -445,6 +446,7 @@ mod tests {
             cells: vec![0, 0, 0, 1],
             trees,
             has_levels: false,
+            narrows: false,
         };
         let mut grid = picture.grid_of(0).unwrap();
         write(&mut grid);
@@ -460,6 +462,7 @@ mod tests {
             cells: vec![0; 300 * 300],
             trees: vec![solid(3)],
             has_levels: false,
+            narrows: false,
         };
         let mut grid = picture.grid_of(0).unwrap();
         write(&mut grid);

@@ -24,6 +24,10 @@ pub(super) enum Order {
 /// Appends the commands of a list, four words each.
 pub(super) fn write(arena: &Arena, nodes: Span, order: Order, commands: &mut Vec<[u32; 4]>) {
     let first = commands.len();
+    let (nodes, backdrop) = match order {
+        Order::FrontToBack => split(arena, nodes),
+        Order::BackToFront => (&arena.nodes[nodes.range()], 0),
+    };
     let mut writer = Writer {
         arena,
         commands,
@@ -33,8 +37,27 @@ pub(super) fn write(arena: &Arena, nodes: Span, order: Order, commands: &mut Vec
     writer.nodes(nodes);
     writer.branch();
     if let Some(last) = commands[first..].last_mut() {
-        last[3] |= cmd::LAST_BIT;
+        last[3] |= cmd::LAST_BIT | backdrop;
     }
+}
+
+/// What of a list has entries of its own, and the bits of the last of them that stand for the rest: an
+/// opaque paint that fills the cell, right behind an opaque outline.
+fn split(arena: &Arena, nodes: Span) -> (&[Node], u32) {
+    let nodes = &arena.nodes[nodes.range()];
+    let [rest @ .., Node::Draw(behind)] = nodes else {
+        return (nodes, 0);
+    };
+    let Some(Node::Draw(front)) = rest.last() else {
+        return (nodes, 0);
+    };
+    let opaque = front.tag & behind.tag & cmd::OPAQUE_BIT != 0;
+    let [shown, hidden] = [front, behind].map(|part| part.tag & cmd::INDEX_MASK);
+    let short = shown.max(hidden) <= cmd::BACKDROP_MASK;
+    if !arena.backdrops || !opaque || !short || front.outline.is_none() || !behind.is_full() {
+        return (nodes, 0);
+    }
+    (rest, cmd::BACKDROP_BIT | hidden << cmd::BACKDROP_SHIFT)
 }
 
 struct Writer<'a> {
@@ -46,8 +69,11 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    fn nodes(&mut self, nodes: Span) {
-        let nodes = &self.arena.nodes[nodes.range()];
+    fn body(&mut self, nodes: Span) {
+        self.nodes(&self.arena.nodes[nodes.range()]);
+    }
+
+    fn nodes(&mut self, nodes: &[Node]) {
         match self.order {
             Order::FrontToBack => nodes.iter().for_each(|node| self.node(node)),
             Order::BackToFront => nodes.iter().rev().for_each(|node| self.node(node)),
@@ -100,7 +126,7 @@ impl Writer<'_> {
             ends.push(self.commands.len() - 1);
         }
         let body = self.commands.len();
-        self.nodes(clip.body);
+        self.body(clip.body);
         let end = self.commands.len();
         for (branch, last) in branches.iter().zip(ends) {
             let target = match branch.to {
@@ -116,13 +142,13 @@ impl Writer<'_> {
         let mut masks = Vec::new();
         for mask in group.masks(self.arena) {
             self.control([1, 0, 0], cmd::OPEN);
-            self.nodes(mask.body);
+            self.body(mask.body);
             masks.push(self.commands.len());
             self.control([mask.kind, 0, 0], cmd::MASK);
         }
         let isolated = u32::from(group.isolated);
         self.control([isolated, 0, 0], cmd::OPEN);
-        self.nodes(group.body);
+        self.body(group.body);
         self.control([group.opacity, group.mode, isolated], cmd::CLOSE);
         let end = self.commands.len();
         self.branches
@@ -178,8 +204,9 @@ fn lines<'a>(
 
 /// How many commands [`write`] makes of a list without clips and groups, and their hash.
 pub(super) fn summary(arena: &Arena, nodes: Span) -> (usize, u64) {
-    let (mut count, mut all) = (0, hash::START);
-    for node in &arena.nodes[nodes.range()] {
+    let (nodes, backdrop) = split(arena, nodes);
+    let (mut count, mut all) = (0, hash::mix(hash::START, u64::from(backdrop)));
+    for node in nodes {
         let Node::Draw(part) = node else { continue };
         let Some(outline) = &part.outline else {
             count += 1;

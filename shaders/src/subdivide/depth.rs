@@ -3,7 +3,7 @@
 
 use vtex_format::VtexFile;
 
-use crate::layout::FilterMode;
+use crate::layout::{FilterMode, half};
 
 /// Deepest subdivision: each step halves the sides of cells.
 pub(super) const MAX_DEPTH: u32 = 6;
@@ -16,9 +16,15 @@ const COMMAND_COST: f64 = 0.27;
 const FOOTPRINT_COMMAND_COST: f64 = 0.45;
 /// Cost of reading a second word.
 const BLOCK_COST: f64 = 0.05;
-/// Cost of a MiB. What it is worth in time is a judgement: each must save a mean lookup two commands
-/// in nine (docs/decisions/0019 has other values).
-const MIB_COST: f64 = 0.06;
+/// Cost of a MiB for points. What it is worth in time is a judgement: each must save a mean lookup three
+/// commands in eight (docs/decisions/0030 has other values).
+const MIB_COST: f64 = 0.1;
+/// The same for footprints: two commands in fifteen (docs/decisions/0019).
+const FOOTPRINT_MIB_COST: f64 = 0.06;
+/// Bytes of a cell of a block that is narrow, as nearly all are where lookups are of points.
+const NARROW_CELL_BYTES: f64 = half::BITS as f64 / 8.0;
+/// Bytes of another cell.
+const CELL_BYTES: f64 = 4.0;
 /// One depth more is taken to leave at least this share of what parts with outlines walk: a straight
 /// edge leaves half, because it goes through two quarters of four. No list is cut for a depth that
 /// is not worth it even so. Over 69 drawings that saves half of all cuts, and by this model the
@@ -36,6 +42,8 @@ pub(super) struct Model {
     block: f64,
     /// Of a byte.
     byte: f64,
+    /// Bytes of a cell.
+    cell_bytes: f64,
     /// The greatest depth.
     pub(super) max_depth: u32,
     /// Whether every cell with an edge gets it.
@@ -65,15 +73,15 @@ impl Model {
     /// `halvings` as in [`crate::PackOptions`].
     pub(super) fn new(file: &VtexFile, filter: FilterMode, halvings: Option<u32>) -> Self {
         let cells = count(file.cells.len().max(1));
-        let command = if filter == FilterMode::Footprint {
-            FOOTPRINT_COMMAND_COST
-        } else {
-            COMMAND_COST
+        let (command, mib, cell_bytes) = match filter {
+            FilterMode::Footprint => (FOOTPRINT_COMMAND_COST, FOOTPRINT_MIB_COST, CELL_BYTES),
+            FilterMode::Point | FilterMode::Paper => (COMMAND_COST, MIB_COST, NARROW_CELL_BYTES),
         };
         Self {
             command: command / cells,
             block: BLOCK_COST / cells,
-            byte: MIB_COST / f64::from(1 << 20),
+            byte: mib / f64::from(1 << 20),
+            cell_bytes,
             max_depth: halvings.unwrap_or(MAX_DEPTH).min(MAX_DEPTH),
             forced: halvings.is_some(),
         }
@@ -106,7 +114,7 @@ impl Search {
             _ => (f64::from(4_u32.pow(depth)), self.model.block),
         };
         self.uses * (sums.walked * self.model.command + block)
-            + self.model.byte * (4.0 * words + 16.0 * sums.stored)
+            + self.model.byte * (self.model.cell_bytes * words + 16.0 * sums.stored)
     }
 
     /// Whether `depth` can be better than the best one: `present` is what the depth before takes,

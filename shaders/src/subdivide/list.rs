@@ -49,9 +49,18 @@ pub(super) struct Arena {
     pub(super) pending: Vec<Node>,
     /// Whether there is a clip or group.
     has_controls: bool,
+    /// Whether lists end as [`cmd::BACKDROP_BIT`] says.
+    pub(super) backdrops: bool,
 }
 
 impl Arena {
+    pub(super) fn new(backdrops: bool) -> Self {
+        Self {
+            backdrops,
+            ..Self::default()
+        }
+    }
+
     /// Forgets all lists.
     pub(super) fn clear(&mut self) {
         self.nodes.clear();
@@ -224,7 +233,7 @@ impl Part {
         }
     }
 
-    fn is_full(&self) -> bool {
+    pub(super) fn is_full(&self) -> bool {
         self.tag & cmd::KIND_MASK == cmd::FULL
     }
 

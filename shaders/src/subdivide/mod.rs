@@ -87,6 +87,7 @@ fn divide(
     let mut picture = Picture {
         size: file.meta.grid.size_cells.map(|count| count as usize),
         has_levels,
+        narrows: filter != FilterMode::Footprint,
         ..Picture::default()
     };
     let uses = Uses::of(file);
@@ -190,17 +191,6 @@ fn whole_cell(file: &VtexFile) -> Region {
     Region {
         x: [margin, margin + units],
         y: [margin, margin + units],
-    }
-}
-
-/// What the list of a fine cell serves, where `whole` is a cell of the file.
-fn dilated(fine: &Region, whole: &Region, filter: FilterMode) -> Region {
-    if filter == FilterMode::Footprint {
-        let side = fine.x[1] - fine.x[0];
-        fine.dilated(side * f64::from(cell::OVERLAP) / 16.0)
-            .intersection(whole)
-    } else {
-        *fine
     }
 }
 

@@ -5,7 +5,7 @@ use std::ops::Range;
 use vtex_format::{CURVE_HEADER_WORDS, CURVE_LINE_WORDS, CURVE_QUAD_WORDS, CurveHeader};
 
 use super::hash;
-use crate::layout::cmd;
+use crate::layout::{FilterMode, cell, cmd};
 
 /// Units by which evaluators' f32 arithmetic may misplace a lookup, with some to spare: a part
 /// serves lookups this far outside it.
@@ -71,6 +71,17 @@ struct Trace {
     y: [f64; 2],
     /// For each segment the least and the greatest x.
     x: Vec<[f64; 2]>,
+}
+
+/// What the list of a fine cell serves, where `whole` is a cell of the file.
+pub(super) fn dilated(fine: &Region, whole: &Region, filter: FilterMode) -> Region {
+    if filter == FilterMode::Footprint {
+        let side = fine.x[1] - fine.x[0];
+        fine.dilated(side * f64::from(cell::OVERLAP) / 16.0)
+            .intersection(whole)
+    } else {
+        *fine
+    }
 }
 
 impl Region {

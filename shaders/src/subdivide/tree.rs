@@ -1,11 +1,9 @@
 //! A cell of the file, divided as deep as its content is worth.
 
 use super::depth::{self, Model, Sums};
-use super::dilated;
-use super::grid::is_level;
 use super::list::{Arena, List};
 use super::lists::{Lists, Shown};
-use super::outline::Region;
+use super::outline::{Region, dilated};
 use crate::layout::{FilterMode, cell, has_list};
 
 /// What dividing one list may look at, as [`Arena::work`] counts: beyond it no further depth is tried. Of
@@ -74,6 +72,12 @@ impl Tree {
     }
 }
 
+/// Whether squares so often halved from a cell of the file are a level of blocks: one level in two, so
+/// that each has a sixteenth of the words of the next.
+pub(super) const fn is_level(halvings: u32) -> bool {
+    halvings.is_multiple_of(2)
+}
+
 /// A part of a cell on the way to a tree.
 #[derive(Clone, Copy, Debug)]
 struct Part {
@@ -127,7 +131,7 @@ impl<'a> Divider<'a> {
             has_levels,
             model,
             work_left,
-            arena: Arena::default(),
+            arena: Arena::new(filter != FilterMode::Footprint),
             parts: Vec::new(),
             ends: Vec::new(),
             stored: Stored::default(),

@@ -33,6 +33,20 @@ fn vtex_cell_depth(word: u32) -> u32 {
     return select(0u, depth, vtex_cell_is_block(word));
 }
 
+// The word of a cell of a block.
+fn vtex_cell_in_block(vt: VtexTexture, block: u32, index: u32) -> u32 {
+    let first = vt.cells + (block & VTEX_CELL_PLACE_MASK);
+    // 1 where two cells share a word, and the first word says where their lists begin.
+    let narrow = (block >> VTEX_CELL_NARROW_SHIFT) & 1u;
+    let word = vtex_word(vt, first + narrow + (index >> narrow));
+    let lists = vtex_word(vt, first);
+    let half = (word >> ((index & narrow) * VTEX_HALF_BITS)) & VTEX_HALF_MASK;
+    let tag = half >> VTEX_HALF_TAG_SHIFT;
+    let base = select(0u, lists, tag >= VTEX_CELL_LIST);
+    let whole = (tag << VTEX_CELL_TAG_SHIFT) | ((half & VTEX_HALF_PAYLOAD_MASK) + base);
+    return select(word, whole, narrow != 0u);
+}
+
 // The cell that `p` lies in, where its base cell has `word`: of the level of this depth, which begins so
 // many words behind the block's first.
 fn vtex_cell_of_block(vt: VtexTexture, p: vec2f, word: u32, depth: u32, skipped: u32) -> VtexCell {
@@ -41,8 +55,7 @@ fn vtex_cell_of_block(vt: VtexTexture, p: vec2f, word: u32, depth: u32, skipped:
     var cell = VtexCell(word, per_cell, at);
     if vtex_cell_is_block(word) {
         let inside = bitcast<vec2u>(vec2i(at)) & vec2u((1u << depth) - 1u);
-        let first = vt.cells + (word & VTEX_CELL_PLACE_MASK) * VTEX_CELL_BLOCK_WORDS + skipped;
-        cell.word = vtex_word(vt, first + (inside.y << depth) + inside.x);
+        cell.word = vtex_cell_in_block(vt, word, skipped + (inside.y << depth) + inside.x);
     }
     return cell;
 }

@@ -6,6 +6,7 @@
 //!use vtex/samples
 //!use vtex/resolved
 //!use vtex/edge
+//!use vtex/backdrop
 //!use vtex/msdf
 //!use vtex/brush
 //!use vtex/outline
@@ -33,6 +34,7 @@ fn vtex_paper(
         if (command.w & VTEX_CMD_END_BIT) != 0u {
             var inner = 0.0;
             var outer = 0.0;
+            var tag = command.w;
             if (command.w & VTEX_CMD_KIND_MASK) == VTEX_CMD_MSDF {
                 let distance = vtex_msdf_distance(vt, command.x, vtex_samples_centre(samples));
                 inner = vtex_paper_ramp(vt, distance);
@@ -40,7 +42,9 @@ fn vtex_paper(
             } else {
                 var covered = vtex_edge_covered(vt, samples, command, winding, 1u);
                 if (command.w & VTEX_CMD_CONTROL_BIT) == 0u {
-                    covered = vtex_brush_covered(vt, samples, command.w, covered);
+                    let shown = vtex_backdrop(command.w, covered, 1u);
+                    tag = shown.tag;
+                    covered = vtex_brush_covered(vt, samples, tag, shown.covered);
                 }
                 inner = select(0.0, 1.0, (covered & 1u) != 0u);
             }
@@ -59,11 +63,11 @@ fn vtex_paper(
                 // Shape and ring exclude each other: both lie over what is behind.
                 var entry = vec4f(0.0);
                 if inner > 0.0 {
-                    entry += inner * vtex_brush(vt, lookup, command.w, lookup.uv).encoded;
+                    entry += inner * vtex_brush(vt, lookup, tag, lookup.uv).encoded;
                 }
                 if outer > inner {
-                    let tag = vtex_outline_tag(vt);
-                    entry += (outer - inner) * vtex_brush(vt, lookup, tag, lookup.uv).encoded;
+                    let ring = vtex_outline_tag(vt);
+                    entry += (outer - inner) * vtex_brush(vt, lookup, ring, lookup.uv).encoded;
                 }
                 color += (1.0 - color.a) * entry;
             }

@@ -5,6 +5,7 @@
 //!use vtex/samples
 //!use vtex/resolved
 //!use vtex/edge
+//!use vtex/backdrop
 //!use vtex/ring
 //!use vtex/composite
 // The walk over a cell's list, front to back: one loop over the commands, whatever entries they
@@ -38,8 +39,9 @@ fn vtex_walk(
         if (command.w & VTEX_CMD_END_BIT) != 0u {
             let covered = vtex_edge_covered(vt, samples, command, winding, composite.live);
             let control = (command.w & VTEX_CMD_CONTROL_BIT) != 0u;
-            let drawn = select(covered, 0u, control);
-            composite = vtex_composite_draw(vt, lookup, composite, samples, drawn, command.w);
+            let shown = vtex_backdrop(command.w, covered, composite.live);
+            let drawn = select(shown.covered, 0u, control);
+            composite = vtex_composite_draw(vt, lookup, composite, samples, drawn, shown.tag);
             composite = vtex_ring(vt, lookup, composite, samples, drawn, command);
             var over = 0u;
             // Textures without clips have no control commands here: there is nothing to ask the

@@ -1,11 +1,13 @@
 //! Base cells and blocks: the words that evaluators read for the trees of the file's cells.
 
+mod narrow;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use vtex_format::MAX_GRID_SIDE;
 
 use super::hash;
-use super::tree::Tree;
+use super::tree::{Tree, is_level};
 use crate::layout::{cell, has_list};
 
 /// A side of base cells: `2^side` cells of the file lie along one.
@@ -15,8 +17,6 @@ pub(crate) type Side = i32;
 pub(crate) const SMALLEST: Side = -2;
 /// No base cell is larger: one is as large as any grid.
 pub(crate) const LARGEST: Side = MAX_GRID_SIDE.ilog2().cast_signed() + 1;
-/// Blocks take whole groups of so many words.
-const BLOCK_WORDS: usize = cell::BLOCK_WORDS as usize;
 /// Deepest block.
 const MAX_BLOCK_DEPTH: u32 = cell::DEPTH_MASK;
 
@@ -31,6 +31,8 @@ pub(super) struct Picture {
     pub(super) trees: Vec<Tree>,
     /// Whether blocks have levels coarser than their cells.
     pub(super) has_levels: bool,
+    /// Whether cells of blocks are to be narrow, where they can be.
+    pub(super) narrows: bool,
 }
 
 /// Base cells, and blocks behind them.
@@ -43,12 +45,6 @@ pub(crate) struct Grid {
     pub(crate) words: Vec<u32>,
     /// Whether blocks have levels coarser than their cells.
     pub(crate) has_levels: bool,
-}
-
-/// Whether squares so often halved from a cell of the file are a level of blocks: one level in two, so
-/// that each has a sixteenth of the words of the next.
-pub(super) const fn is_level(halvings: u32) -> bool {
-    halvings.is_multiple_of(2)
 }
 
 /// The depths of the levels of a block, from fine to coarse, without that of its cells. Levels are no
@@ -72,8 +68,7 @@ pub(crate) fn base_size(cells: [usize; 2], side: Side) -> [usize; 2] {
 pub(crate) fn block_words(side: Side, depth: u32, has_levels: bool) -> usize {
     let levels = levels(side, depth).filter(|_| has_levels);
     let words = |depth: u32| 1_usize << (2 * depth);
-    let all = words(depth) + levels.map(words).sum::<usize>();
-    all.next_multiple_of(BLOCK_WORDS)
+    words(depth) + levels.map(words).sum::<usize>()
 }
 
 impl Grid {
@@ -170,6 +165,12 @@ impl Picture {
         }
     }
 
+    /// Words of a block's cells.
+    fn words_at(&self, depth: u32) -> usize {
+        let cells = 1 << (2 * depth);
+        if self.narrows { 1 + cells / 2 } else { cells }
+    }
+
     /// Words that a side takes where base cells are parts of the file's.
     fn count_parts(&self, side: Side) -> Option<usize> {
         let shift = side.unsigned_abs();
@@ -181,7 +182,7 @@ impl Picture {
                 if depth > MAX_BLOCK_DEPTH {
                     return None;
                 }
-                words += if depth > 0 { 1 << (2 * depth) } else { 0 };
+                words += if depth > 0 { self.words_at(depth) } else { 0 };
             }
         }
         Some(words)
@@ -199,7 +200,7 @@ impl Picture {
                     return None;
                 }
                 if seen.insert(content) {
-                    words += 1 << (2 * depth);
+                    words += self.words_at(depth);
                 }
             }
         }
@@ -268,7 +269,6 @@ impl Picture {
         for level in levels(side, depth).filter(|_| self.has_levels) {
             words.extend(self.block(side, content, level));
         }
-        words.resize(words.len().next_multiple_of(BLOCK_WORDS), 0);
         blocks.add(depth, &words)
     }
 
@@ -327,7 +327,7 @@ struct Blocks {
 impl Blocks {
     fn new(base: usize) -> Self {
         Self {
-            words: vec![0; base.next_multiple_of(BLOCK_WORDS)],
+            words: vec![0; base],
             known: BTreeMap::new(),
         }
     }
@@ -340,13 +340,13 @@ impl Blocks {
         });
         let hash = pairs.fold(u64::from(depth), hash::mix);
         if let Some(&word) = self.known.get(&hash) {
-            let first = ((word & cell::PLACE_MASK) * cell::BLOCK_WORDS) as usize;
+            let first = (word & cell::PLACE_MASK) as usize;
             let same_depth = word >> cell::DEPTH_SHIFT & cell::DEPTH_MASK == depth;
             if same_depth && self.words[first..].starts_with(block) {
                 return Some(word);
             }
         }
-        let place = u32::try_from(self.words.len()).ok()? / cell::BLOCK_WORDS;
+        let place = u32::try_from(self.words.len()).ok()?;
         if place > cell::PLACE_MASK {
             return None;
         }
