@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::{Affine3A, Mat3A, Mat4, Quat, Vec3, Vec3A};
-use vtex_runtime::Camera;
+use vtex_runtime::{Camera, PunctualKind as TraceKind, PunctualLight as TraceLight};
 
 use crate::buffers::accessor::Reader;
 use crate::document::{Document, Node};
@@ -18,7 +18,7 @@ pub struct NamedCamera {
     pub camera: Camera,
 }
 
-/// A light of `KHR_lights_punctual`, which the tracer does not show yet.
+/// A light of `KHR_lights_punctual`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PunctualLight {
     /// Its name; may be empty.
@@ -51,6 +51,46 @@ pub enum PunctualKind {
         /// Half angle beyond which it is dark, radians.
         outer: f32,
     },
+}
+
+impl PunctualLight {
+    /// As the tracer has it. Angles and colours out of range are mended; a light without a place or an
+    /// intensity that is a number is left out, with a warning.
+    pub(crate) fn traced(&self, warnings: &mut Vec<String>) -> Option<TraceLight> {
+        let half_turn = std::f32::consts::FRAC_PI_2;
+        let kind = match self.kind {
+            PunctualKind::Directional => TraceKind::Directional,
+            PunctualKind::Point => TraceKind::Point,
+            PunctualKind::Spot { inner, outer } => {
+                // `max` and `min` drop what is no number.
+                let outer_rad = outer.max(0.0).min(half_turn);
+                TraceKind::Spot {
+                    inner_rad: inner.max(0.0).min(outer_rad),
+                    outer_rad,
+                }
+            }
+        };
+        let intensity = self.color.map(|c| (c * self.intensity).max(0.0));
+        let is_finite = self
+            .position
+            .iter()
+            .chain(&intensity)
+            .all(|n| n.is_finite());
+        if !is_finite {
+            let name = &self.name;
+            warnings.push(format!(
+                "KHR_lights_punctual: a light {name:?} whose numbers are not finite was left out"
+            ));
+            return None;
+        }
+        Some(TraceLight {
+            kind,
+            position: self.position,
+            direction: self.direction,
+            intensity,
+            range: self.range.filter(|&range| range > 0.0),
+        })
+    }
 }
 
 /// What the nodes of a scene place.

@@ -34,7 +34,7 @@ pub struct Asset {
     pub scene: Scene,
     /// Cameras in the order of the nodes.
     pub cameras: Vec<NamedCamera>,
-    /// Punctual lights, which the tracer does not show yet.
+    /// Punctual lights in the order of the nodes; the tracer shows them.
     pub lights: Vec<PunctualLight>,
     /// All materials as the asset describes them.
     pub materials: Vec<Material>,
@@ -82,12 +82,6 @@ pub fn read(
     }
     let scene = options.scene.or(document.scene).unwrap_or(0);
     let placed = nodes::walk(&mut reader, scene, &mut warnings)?;
-    if !placed.lights.is_empty() {
-        let count = placed.lights.len();
-        warnings.push(format!(
-            "KHR_lights_punctual: {count} lights are kept and not shown yet"
-        ));
-    }
     let built = Built::new(&mut reader, &placed, variant, &mut warnings)?;
     let mut textures = Textures::new(&reader, files);
     let mut materials = Vec::new();
@@ -116,9 +110,13 @@ pub fn read(
         instances: built.instances,
         materials,
         textures: textures.made,
-        // White from everywhere shows colours as they are.
-        sky: Sky::uniform(1.0),
+        // White from everywhere shows colours as they are, unless the asset says what lights it.
+        sky: Sky::uniform(if placed.lights.is_empty() { 1.0 } else { 0.0 }),
+        environment: None,
         lights: Vec::new(),
+        punctual: (placed.lights.iter())
+            .filter_map(|light| light.traced(&mut warnings))
+            .collect(),
         camera: vtex_runtime::Camera::facing_rect([0.0; 2], [1.0; 2], 1.0),
     };
     scene.camera = match placed.cameras.first() {

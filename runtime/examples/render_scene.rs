@@ -95,6 +95,8 @@ fn board_and_ball(files: Vec<VtexFile>) -> Scene {
             .into_iter()
             .map(|file| (file, LoadOptions::default()))
             .collect(),
+        environment: None,
+        punctual: Vec::new(),
         sky: Sky::uniform(0.4),
         lights: vec![RectLight {
             corner: [-1.0, 3.0, 0.5],

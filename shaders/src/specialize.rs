@@ -71,6 +71,27 @@ pub fn without_instances(context: LinkContext) -> LinkContext {
         .fill("trace/world/levels", "trace/world/levels_one")
 }
 
+/// Kinds of light that a scene has; see [`with_lights`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LightKinds {
+    /// Rectangles, and meshes that glow.
+    pub areas: bool,
+    /// Lights without size.
+    pub punctual: bool,
+    /// A panorama instead of the sky.
+    pub environment: bool,
+}
+
+/// `context` for a path tracer with code for these kinds of light; without this, for all of them.
+pub fn with_lights(context: LinkContext, kinds: LightKinds) -> LinkContext {
+    let text = format!(
+        "const LIGHTS_HAVE_AREAS: bool = {};\nconst LIGHTS_HAVE_PUNCTUAL: bool = {};\n\
+         const LIGHTS_HAVE_ENVIRONMENT: bool = {};\n",
+        kinds.areas, kinds.punctual, kinds.environment
+    );
+    context.define("trace/light/kinds", text)
+}
+
 /// What the text of a key is linked from. The features say what there is code for; which of it a
 /// texture uses, and everything else about it, the text reads from the texture's header.
 fn context(key: &SpecKey, BindingSlot { group, binding }: BindingSlot) -> LinkContext {

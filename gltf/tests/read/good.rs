@@ -4,7 +4,7 @@ use serde_json::json;
 use vtex_format::AddressMode;
 use vtex_gltf::material::AlphaMode;
 use vtex_gltf::{NoFiles, PunctualKind, ReadOptions, read};
-use vtex_runtime::Surface;
+use vtex_runtime::{Sky, Surface};
 
 use crate::builder::Builder;
 
@@ -186,12 +186,11 @@ fn cameras_lights_and_variants() {
         ([0.0, 0.0, 4.0], [0.0, 0.0, -1.0])
     );
     assert!(matches!(asset.lights[0].kind, PunctualKind::Spot { .. }));
-    assert!(
-        asset
-            .warnings
-            .iter()
-            .any(|w| w.contains("KHR_lights_punctual"))
-    );
+    let [spot] = asset.scene.punctual.as_slice() else {
+        panic!("lights: {:?}", asset.scene.punctual);
+    };
+    assert_eq!((spot.intensity, spot.range), ([5.0; 3], None));
+    assert_eq!(asset.scene.sky, Sky::uniform(0.0), "its light is its own");
     assert_eq!(asset.scene.materials[0].base_color, [1.0, 0.0, 0.0]);
     let variant = |name: &str| {
         let options = ReadOptions {

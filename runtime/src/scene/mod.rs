@@ -4,20 +4,18 @@
 //! linear algebra crate.
 
 mod camera;
+mod light;
 mod mesh;
 mod plane;
 
-use glam::Vec3;
 use vtex_format::VtexFile;
 
 pub use camera::Camera;
+pub use light::{Environment, PunctualKind, PunctualLight, RectLight, Sky};
 pub use mesh::{MAX_TRIANGLES, Mesh};
 pub use plane::{canvas_aspect, plane, plane_camera};
 
 use crate::{LoadOptions, RuntimeError};
-
-/// Most area lights of a scene: they lie in one uniform block.
-pub const MAX_LIGHTS: usize = 16;
 
 /// Meshes, how they look, what lights them and who looks at them. World space is right-handed,
 /// y up, in whatever unit the caller likes; radiance is linear, Rec. 709 primaries.
@@ -31,10 +29,14 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Vector textures that materials name, each with how it is looked up.
     pub textures: Vec<(VtexFile, LoadOptions)>,
-    /// Light from everywhere else.
+    /// Light from everywhere else, where there is no `environment`.
     pub sky: Sky,
-    /// Area lights, at most [`MAX_LIGHTS`].
+    /// Light from everywhere else as a panorama has it.
+    pub environment: Option<Environment>,
+    /// Area lights.
     pub lights: Vec<RectLight>,
+    /// Lights without size.
+    pub punctual: Vec<PunctualLight>,
     /// The viewer.
     pub camera: Camera,
 }
@@ -64,8 +66,8 @@ pub struct Material {
     pub backing: Option<[f32; 3]>,
     /// How light scatters.
     pub surface: Surface,
-    /// Radiance of its own, linear. Only [`Scene::lights`] are sampled as lights: a glowing mesh
-    /// is found by scattered rays alone, which is noisy when it is small.
+    /// Radiance of its own, linear, on both sides. Paths aim at meshes that glow as they do at
+    /// [`Scene::lights`], unless they have a see-through texture: those are found by scattering alone.
     pub emission: [f32; 3],
 }
 
@@ -90,30 +92,6 @@ pub enum Surface {
     },
 }
 
-/// Radiance by direction: `horizon` at y = 0 blends to `zenith` above and to `ground` below.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sky {
-    /// Straight up.
-    pub zenith: [f32; 3],
-    /// Level.
-    pub horizon: [f32; 3],
-    /// Straight down.
-    pub ground: [f32; 3],
-}
-
-/// A rectangle that shines from its front, the side `edge_u x edge_v` points to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RectLight {
-    /// One corner, world space.
-    pub corner: [f32; 3],
-    /// From the corner along one side.
-    pub edge_u: [f32; 3],
-    /// From the corner along the other side.
-    pub edge_v: [f32; 3],
-    /// Linear radiance.
-    pub radiance: [f32; 3],
-}
-
 impl Instance {
     /// A [`Instance::world_from_object`] that leaves a mesh where it is.
     pub const IDENTITY: [[f32; 3]; 4] = [
@@ -132,17 +110,6 @@ impl Default for Material {
             backing: None,
             surface: Surface::Diffuse,
             emission: [0.0; 3],
-        }
-    }
-}
-
-impl Sky {
-    /// The same radiance from everywhere.
-    pub fn uniform(radiance: f32) -> Self {
-        Self {
-            zenith: [radiance; 3],
-            horizon: [radiance; 3],
-            ground: [radiance; 3],
         }
     }
 }
@@ -173,27 +140,19 @@ impl Scene {
             materials_ok,
             "material: a number out of its range or an unknown texture",
         )?;
-        require(self.lights.len() <= MAX_LIGHTS, "more than 16 area lights")?;
         require(
             self.lights.iter().all(RectLight::is_valid),
             "light: no area or bad radiance",
         )?;
-        let sky = [self.sky.zenith, self.sky.horizon, self.sky.ground];
         require(
-            sky.iter().flatten().all(|&c| radiance(c)),
-            "sky: bad radiance",
+            self.punctual.iter().all(PunctualLight::is_valid),
+            "punctual light: no place, no direction, bad angles or bad intensity",
+        )?;
+        require(self.sky.is_valid(), "sky: bad radiance")?;
+        require(
+            self.environment.iter().all(Environment::is_valid),
+            "environment: bad radiance, or not as many texels as it has columns and rows",
         )
-    }
-}
-
-impl RectLight {
-    fn is_valid(&self) -> bool {
-        // Not finite when an edge is not, or when the product overflows. The shader divides by it.
-        let area = Vec3::from(self.edge_u).cross(self.edge_v.into()).length();
-        finite(&self.corner)
-            && area.is_finite()
-            && area > 0.0
-            && self.radiance.iter().all(|&c| radiance(c))
     }
 }
 

@@ -23,7 +23,9 @@ pub fn plane(file: VtexFile, options: LoadOptions) -> Scene {
         camera: plane_camera(&file, [0.0, 0.0, 1.0, 1.0], aspect),
         textures: vec![(file, options)],
         sky: Sky::uniform(1.0),
+        environment: None,
         lights: Vec::new(),
+        punctual: Vec::new(),
     }
 }
 

@@ -3,6 +3,7 @@
 mod bvh;
 mod film;
 mod intersect;
+mod lights;
 mod options;
 mod passes;
 mod pipeline;
@@ -50,6 +51,7 @@ pub struct Tracer {
     film_rays: Buffer,
     pass: Buffer,
     timer: Option<Timer>,
+    notices: Vec<String>,
     /// Every pixel has `samples` samples: false while samples are added, and for ever after when
     /// that fails or its future is dropped half way.
     film_is_even: bool,
@@ -128,8 +130,14 @@ impl Tracer {
             max_bounces: options.max_bounces,
         };
         let kernels = Kernels::new(device, options.integrator, inputs).await?;
+        let stored = match &kernels {
+            Kernels::Single(_) => &[],
+            Kernels::Staged(stages) => stages.notices(),
+        };
+        let notices = [stored, buffers.notices()].concat();
         checked(device, "film", || {
             Ok(Self {
+                notices,
                 timer: Timer::new(device, queue)?,
                 traversal: SceneGroup::new(device, &buffers, &pass, TRAVERSAL),
                 device: device.clone(),
@@ -291,13 +299,10 @@ impl Tracer {
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
     }
 
-    /// Where a file's own kernel differs from its key or was not used though
-    /// [`TraceOptions::trust`] asks for it, one sentence each.
+    /// One sentence each: where a file's own kernel differs from its key or was not used though
+    /// [`TraceOptions::trust`] asks for it, and what glows but is not aimed at.
     pub fn notices(&self) -> &[String] {
-        match &self.kernels {
-            Kernels::Single(_) => &[],
-            Kernels::Staged(stages) => stages.notices(),
-        }
+        &self.notices
     }
 
     /// Kernels that look textures up: one for each kernel key of the scene's textures, at most 16, none in

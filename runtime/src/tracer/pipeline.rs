@@ -10,17 +10,19 @@ use wgpu::{
 use crate::RuntimeError;
 use crate::device::{READ, Uploaded, WRITE, buffer_entry, buffers_layout, compiled, kernel};
 
+use super::lights::PanoramaTexture;
 use super::records::PassRecord;
 use super::upload::SceneBuffers;
 
 const UNIFORM: BufferBindingType = BufferBindingType::Uniform;
 
-/// Bindings of `shaders/wgsl/trace/bindings.wgsl`, in order.
+/// Bindings of `shaders/wgsl/trace/bindings.wgsl`, in order; behind them the panorama and its sampler.
 const SCENE_BINDINGS: [BufferBindingType; 6] = [UNIFORM, UNIFORM, READ, READ, READ, READ];
+const PANORAMA: u32 = 6;
 /// Those that traversal reads: frame, pass, nodes, triangles.
 pub(super) const TRAVERSAL: &[u32] = &[0, 1, 2, 3];
-/// Those that shading reads: all of them, since records of instances lie among the nodes.
-pub(super) const SHADING: &[u32] = &[0, 1, 2, 3, 4, 5];
+/// Those that shading reads: all of them, since records of instances and of lights lie among the nodes.
+pub(super) const SHADING: &[u32] = &[0, 1, 2, 3, 4, 5, 6, 7];
 
 const FILM_GROUP: &[BufferBindingType] = &[WRITE, WRITE];
 const QUERY_GROUP: &[BufferBindingType] = &[READ, WRITE];
@@ -78,17 +80,21 @@ impl SceneGroup {
         pass: &Buffer,
         numbers: &[u32],
     ) -> Self {
-        let buffers = scene.bindings(pass);
+        let resources = scene.bindings(pass);
+        let panorama = PanoramaTexture::layout_entries(PANORAMA);
         let layout: Vec<BindGroupLayoutEntry> = numbers
             .iter()
-            .map(|&number| buffer_entry(number, SCENE_BINDINGS[number as usize]))
+            .map(|&number| match number.checked_sub(PANORAMA) {
+                Some(of_panorama) => panorama[of_panorama as usize],
+                None => buffer_entry(number, SCENE_BINDINGS[number as usize]),
+            })
             .collect();
         let layout = layout_of(device, "vtex scene", &layout);
         let entries: Vec<BindGroupEntry<'_>> = numbers
             .iter()
             .map(|&binding| BindGroupEntry {
                 binding,
-                resource: buffers[binding as usize].as_entire_binding(),
+                resource: resources[binding as usize].clone(),
             })
             .collect();
         Self {
@@ -122,7 +128,7 @@ impl SingleKernel {
     pub(super) async fn new(device: &Device, inputs: Inputs<'_>) -> Result<Self, RuntimeError> {
         let scene = inputs.scene;
         let context = vtex_shaders::scene_context(scene.texture_features(), TEXTURE_SLOT);
-        let context = scene.world().levels(context);
+        let context = scene.code(context);
         let wgsl = linked("root/render", &context)?;
         compiled(device, "path tracer", || {
             let scene_group = SceneGroup::new(device, scene, inputs.pass, SHADING);
@@ -167,7 +173,7 @@ impl QueryPipeline {
         scene: &SceneBuffers,
     ) -> Result<Self, RuntimeError> {
         // It reads triangles alone, so no evaluator of textures is linked.
-        let context = scene.world().levels(LinkContext::default());
+        let context = scene.code(LinkContext::default());
         let wgsl = linked("root/intersect", &context)?;
         compiled(device, "ray query", || {
             let query_layout = buffers_layout(device, "vtex queries", QUERY_GROUP);

@@ -2,9 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::scene::MAX_LIGHTS;
-
-/// "No texture", "no light", "no triangle".
+/// "No texture", "no triangle".
 pub(crate) const NONE: u32 = u32::MAX;
 
 /// [`MaterialRecord::surface`]: Lambert.
@@ -43,20 +41,10 @@ pub(crate) struct MaterialRecord {
     pub(crate) ggx_alpha: f32,
     pub(crate) surface: u32,
     pub(crate) texture_word: u32,
-    pub(crate) light: u32,
+    pub(crate) light_density: f32,
     pub(crate) texture_queue: u32,
-    pub(crate) reserved1: u32,
-    pub(crate) reserved2: u32,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub(crate) struct LightRecord {
-    pub(crate) corner: [f32; 4],
-    pub(crate) edge_u: [f32; 4],
-    pub(crate) edge_v: [f32; 4],
-    pub(crate) normal_area: [f32; 4],
-    pub(crate) radiance: [f32; 4],
+    pub(crate) is_panel: u32,
+    pub(crate) reserved: u32,
 }
 
 #[repr(C)]
@@ -69,6 +57,7 @@ pub(crate) struct FrameRecord {
     pub(crate) sky_zenith: [f32; 4],
     pub(crate) sky_horizon: [f32; 4],
     pub(crate) sky_ground: [f32; 4],
+    pub(crate) environment_turn: [f32; 4],
     pub(crate) film_width: u32,
     pub(crate) film_height: u32,
     pub(crate) light_count: u32,
@@ -80,8 +69,11 @@ pub(crate) struct FrameRecord {
     pub(crate) camera_slope: f32,
     pub(crate) footprint_scale: f32,
     pub(crate) indirect_clamp: f32,
-    pub(crate) reserved: f32,
-    pub(crate) lights: [LightRecord; MAX_LIGHTS],
+    pub(crate) reach: f32,
+    pub(crate) light_first: u32,
+    pub(crate) environment_first: u32,
+    pub(crate) environment_columns: u32,
+    pub(crate) environment_rows: u32,
 }
 
 #[repr(C)]
@@ -131,20 +123,20 @@ mod tests {
         };
     }
 
-    fn rust_layouts() -> [Layout; 8] {
+    fn rust_layouts() -> [Layout; 7] {
         layouts! {
             TriangleRecord { v0, edge1, edge2 }
             AttributeRecord { normal0_u, normal1_u, normal2_u, v_material }
             MaterialRecord {
-                base_color, emission, backing, metallic, ggx_alpha, surface, texture_word, light,
-                texture_queue, reserved1, reserved2,
+                base_color, emission, backing, metallic, ggx_alpha, surface, texture_word,
+                light_density, texture_queue, is_panel, reserved,
             }
-            LightRecord { corner, edge_u, edge_v, normal_area, radiance }
             FrameRecord {
                 camera_position, camera_right, camera_up, camera_forward, sky_zenith, sky_horizon,
-                sky_ground, film_width, film_height, light_count, triangle_count, seed,
+                sky_ground, environment_turn, film_width, film_height, light_count, triangle_count, seed,
                 max_bounces, light_sampling, transparent_background, camera_slope,
-                footprint_scale, indirect_clamp, reserved, lights,
+                footprint_scale, indirect_clamp, reach, light_first, environment_first,
+                environment_columns, environment_rows,
             }
             PassRecord { row_first, row_count, sample_first, sample_count }
             RayRecord { origin_t_max, direction }
@@ -160,7 +152,6 @@ mod tests {
     fn constants_are_those_of_the_shader() {
         let wgsl = layout_wgsl();
         for (name, value) in [
-            ("TRACE_MAX_LIGHTS", MAX_LIGHTS),
             ("LIGHT_SAMPLING_MIS", LightSampling::Mis as usize),
             (
                 "LIGHT_SAMPLING_SCATTER",
@@ -173,7 +164,6 @@ mod tests {
             assert!(wgsl.contains(&line), "no `{line}`");
         }
         assert!(wgsl.contains(&format!("const TRACE_NONE: u32 = {NONE:#x}u;")));
-        assert!(wgsl.contains(&format!("lights: array<LightRecord, {MAX_LIGHTS}>")));
     }
 
     #[test]

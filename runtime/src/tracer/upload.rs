@@ -1,18 +1,18 @@
 //! A scene as buffers on the device.
 
 use glam::Vec3;
-use wgpu::{Buffer, BufferUsages, Device, Queue};
+use vtex_shaders::{LightKinds, LinkContext};
+use wgpu::{BindingResource, Buffer, BufferUsages, Device, Queue};
 
 use super::TraceOptions;
+use super::lights::{LIGHT_GROUPS, Lights, PanoramaTexture};
 use super::queues::TextureQueues;
-use super::records::{
-    FrameRecord, LightRecord, MaterialRecord, NONE, SURFACE_DIFFUSE, SURFACE_GLOSSY,
-};
+use super::records::{FrameRecord, MaterialRecord, NONE, SURFACE_DIFFUSE, SURFACE_GLOSSY};
 use super::textures::PackedTextures;
 use super::world::{World, index_u32};
 use crate::RuntimeError;
 use crate::device::{Uploaded, checked, filled_buffer};
-use crate::scene::{Camera, MAX_LIGHTS, Material, RectLight, Scene, Surface};
+use crate::scene::{Camera, Material, Scene, Surface};
 
 /// GGX turns into a mirror below this, and f32 loses its peak.
 const MIN_GGX_ALPHA: f32 = 0.001;
@@ -26,6 +26,9 @@ pub(super) struct SceneBuffers {
     triangles: Buffer,
     attributes: Buffer,
     materials: Buffer,
+    panorama: PanoramaTexture,
+    light_kinds: LightKinds,
+    notices: Vec<String>,
     textures: Uploaded,
     texture_features: u32,
     texture_places: Vec<[u32; 2]>,
@@ -50,8 +53,10 @@ impl SceneBuffers {
             .zip(queues.of_texture.iter().copied())
             .map(<[u32; 2]>::from)
             .collect();
-        let materials = material_records(scene, &lookups);
-        let frame_record = frame_record(scene, size, options, world.first_level)?;
+        let mut lights = Lights::new(scene);
+        let materials = material_records(scene, &lookups, &lights.densities);
+        let frame_record = frame_record(scene, size, options, &world, &lights)?;
+        world.nodes.append(&mut lights.groups);
         checked(device, "scene", || {
             let filled =
                 |label, bytes: &[u8], usage| filled_buffer(device, queue, label, bytes, usage);
@@ -64,6 +69,12 @@ impl SceneBuffers {
                 triangles: storage("vtex triangles", bytemuck::cast_slice(&world.triangles))?,
                 attributes: storage("vtex attributes", bytemuck::cast_slice(&world.attributes))?,
                 materials: storage("vtex materials", bytemuck::cast_slice(&materials))?,
+                panorama: match &lights.panorama {
+                    Some(shown) => PanoramaTexture::new(device, queue, shown.size, &shown.texels),
+                    None => PanoramaTexture::new(device, queue, [1; 2], &[0]),
+                },
+                light_kinds: lights.kinds,
+                notices: lights.notices,
                 textures: Uploaded::new(device, queue, &packed.words, &packed.texels)?,
                 texture_features: packed.features,
                 texture_places: packed.places,
@@ -80,15 +91,29 @@ impl SceneBuffers {
     }
 
     /// In the order of `trace/bindings.wgsl`.
-    pub(super) fn bindings<'a>(&'a self, pass: &'a Buffer) -> [&'a Buffer; 6] {
+    pub(super) fn bindings<'a>(&'a self, pass: &'a Buffer) -> [BindingResource<'a>; 8] {
+        let [texture, sampler] = self.panorama.resources();
         [
-            &self.frame,
-            pass,
-            &self.nodes,
-            &self.triangles,
-            &self.attributes,
-            &self.materials,
+            self.frame.as_entire_binding(),
+            pass.as_entire_binding(),
+            self.nodes.as_entire_binding(),
+            self.triangles.as_entire_binding(),
+            self.attributes.as_entire_binding(),
+            self.materials.as_entire_binding(),
+            texture,
+            sampler,
         ]
+    }
+
+    /// `context` with the code that this scene needs: any text that imports `trace/bvh` or `trace/light`
+    /// is to be linked with it.
+    pub(super) fn code(&self, context: LinkContext) -> LinkContext {
+        vtex_shaders::with_lights(self.world.levels(context), self.light_kinds)
+    }
+
+    /// What of the scene's light was left out.
+    pub(super) fn notices(&self) -> &[String] {
+        &self.notices
     }
 
     pub(super) fn textures(&self) -> &Uploaded {
@@ -134,21 +159,22 @@ impl SceneBuffers {
     }
 }
 
-/// The scene's materials, then one for each light.
-/// `lookups`: of each texture its first word and its queue.
-fn material_records(scene: &Scene, lookups: &[[u32; 2]]) -> Vec<MaterialRecord> {
-    let surfaces = scene
-        .materials
-        .iter()
-        .map(|material| material_record(material, lookups));
-    let lights = (0..)
-        .zip(&scene.lights)
-        .map(|(index, light)| MaterialRecord {
-            emission: color(light.radiance),
-            light: index,
-            ..material_record(&Material::default(), lookups)
-        });
-    surfaces.chain(lights).collect()
+/// The scene's materials, then one for each area light.
+/// `lookups`: of each texture its first word and its queue. `densities`: see [`Lights`].
+fn material_records(scene: &Scene, lookups: &[[u32; 2]], densities: &[f32]) -> Vec<MaterialRecord> {
+    let surfaces = (scene.materials.iter()).map(|material| material_record(material, lookups));
+    let panels = scene.lights.iter().map(|light| MaterialRecord {
+        emission: color(light.radiance),
+        is_panel: 1,
+        ..material_record(&Material::default(), lookups)
+    });
+    let records = surfaces.chain(panels).zip(densities);
+    records
+        .map(|(record, &light_density)| MaterialRecord {
+            light_density,
+            ..record
+        })
+        .collect()
 }
 
 fn material_record(material: &Material, lookups: &[[u32; 2]]) -> MaterialRecord {
@@ -169,10 +195,10 @@ fn material_record(material: &Material, lookups: &[[u32; 2]]) -> MaterialRecord 
             Surface::Glossy { .. } => SURFACE_GLOSSY,
         },
         texture_word,
-        light: NONE,
+        light_density: 0.0,
         texture_queue,
-        reserved1: 0,
-        reserved2: 0,
+        is_panel: 0,
+        reserved: 0,
     }
 }
 
@@ -180,11 +206,17 @@ fn frame_record(
     scene: &Scene,
     film_size: [u32; 2],
     options: &TraceOptions,
-    first_level: u32,
+    world: &World,
+    lights: &Lights,
 ) -> Result<FrameRecord, RuntimeError> {
-    let mut lights = [bytemuck::Zeroable::zeroed(); MAX_LIGHTS];
-    for (record, light) in lights.iter_mut().zip(&scene.lights) {
-        *record = light_record(light);
+    let light_first = index_u32(world.nodes.len());
+    let environment_first = light_first + lights.count * index_u32(LIGHT_GROUPS);
+    let mut environment_turn = [0.0; 4];
+    let mut grid = [0; 2];
+    if let Some(shown) = &lights.panorama {
+        let (sine, cosine) = shown.turn_rad.sin_cos();
+        environment_turn = [cosine, sine, shown.scale, shown.chance];
+        grid = shown.grid;
     }
     let mut frame = FrameRecord {
         camera_position: [0.0; 4],
@@ -194,10 +226,11 @@ fn frame_record(
         sky_zenith: color(scene.sky.zenith),
         sky_horizon: color(scene.sky.horizon),
         sky_ground: color(scene.sky.ground),
+        environment_turn,
         film_width: film_size[0],
         film_height: film_size[1],
-        light_count: index_u32(scene.lights.len()),
-        triangle_count: first_level,
+        light_count: lights.count,
+        triangle_count: world.first_level,
         seed: options.seed,
         max_bounces: options.max_bounces,
         light_sampling: options.light_sampling as u32,
@@ -206,27 +239,14 @@ fn frame_record(
         footprint_scale: options.footprint_scale,
         // The shader compares with it; infinity is not a WGSL value.
         indirect_clamp: options.indirect_clamp.min(f32::MAX),
-        reserved: 0.0,
-        lights,
+        reach: world.reach,
+        light_first,
+        environment_first,
+        environment_columns: grid[0],
+        environment_rows: grid[1],
     };
     set_camera(&mut frame, &scene.camera)?;
     Ok(frame)
-}
-
-fn light_vectors(light: &RectLight) -> [Vec3; 3] {
-    [light.corner, light.edge_u, light.edge_v].map(Vec3::from)
-}
-
-fn light_record(light: &RectLight) -> LightRecord {
-    let [corner, edge_u, edge_v] = light_vectors(light);
-    let cross = edge_u.cross(edge_v);
-    LightRecord {
-        corner: vector(corner),
-        edge_u: vector(edge_u),
-        edge_v: vector(edge_v),
-        normal_area: cross.normalize_or_zero().extend(cross.length()).to_array(),
-        radiance: color(light.radiance),
-    }
 }
 
 fn set_camera(frame: &mut FrameRecord, camera: &Camera) -> Result<(), RuntimeError> {

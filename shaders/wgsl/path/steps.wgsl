@@ -4,7 +4,8 @@
 //!use trace/surface
 //!use trace/material
 //!use trace/bsdf
-//!use trace/light
+//!use trace/light/far
+//!use trace/light/sample
 //!use trace/rng
 // The steps of a path: Kajiya 1986, with next-event estimation and multiple importance sampling
 // (Veach 1997). One kernel takes them in a loop (path/integrator), or each stage takes one (stage/).
@@ -67,12 +68,22 @@ fn path_add(path: PathState, radiance: vec3f) -> vec4f {
     return path.color + vec4f(path_clamped(path.throughput * radiance, path.scatterings), 0.0);
 }
 
-// What the sky gives to a path that met nothing.
+// Whether the light that a path meets could have been found by aiming as well.
+fn path_is_aimed(path: PathState) -> bool {
+    return path.scatterings != 0u && trace_frame.light_sampling == LIGHT_SAMPLING_MIS;
+}
+
+// What lies behind everything, for a path that met nothing.
 fn path_escape(path: PathState) -> vec4f {
     if path.scatterings == 0u && trace_frame.transparent_background == 1u {
         return vec4f(path.color.xyz, 0.0);
     }
-    return path_add(path, light_sky(path.ray.direction));
+    let radiance = light_far(path.ray.direction);
+    if LIGHTS_HAVE_ENVIRONMENT && path_is_aimed(path) {
+        let weight = light_mis_weight(path.scatter_pdf, light_far_pdf(path.ray.direction));
+        return path_add(path, radiance * weight);
+    }
+    return path_add(path, radiance);
 }
 
 // Moves a path to the surface that it met.
@@ -89,23 +100,18 @@ fn path_pass(path: ptr<function, PathState>, point: SurfacePoint) -> bool {
     return (*path).veils <= PATH_MAX_VEILS;
 }
 
-// Weight of an area light that a scattered ray met by chance.
-fn path_light_weight(path: PathState, light: u32) -> f32 {
-    if path.scatterings == 0u || trace_frame.light_sampling == LIGHT_SAMPLING_SCATTER {
-        return 1.0;
-    }
-    return light_mis_weight(path.scatter_pdf, light_pdf(light, path.ray.direction, path.travelled));
-}
-
 // What the surface's own light gives.
 fn path_emission(path: PathState, material: MaterialRecord, point: SurfacePoint) -> vec4f {
-    if material.light == TRACE_NONE {
-        return path_add(path, material.emission.xyz);
-    }
-    if !point.front {
+    if material.is_panel == 1u && !point.front {
         return path.color;
     }
-    return path_add(path, material.emission.xyz * path_light_weight(path, material.light));
+    var emission = material.emission.xyz;
+    if LIGHTS_HAVE_AREAS && material.light_density > 0.0 && path_is_aimed(path) {
+        let cosine = -dot(point.geometric_normal, path.ray.direction);
+        let pdf = light_area_pdf(material.light_density, cosine, path.travelled);
+        emission *= light_mis_weight(path.scatter_pdf, pdf);
+    }
+    return path_add(path, emission);
 }
 
 // How a surface scatters what comes along the path, seen from its shading normal.
@@ -123,18 +129,17 @@ fn path_lobes(path: PathState, material: MaterialRecord, point: SurfacePoint, ba
 
 // Whether a path ends at a surface whose own light it has.
 fn path_ends(path: PathState, material: MaterialRecord) -> bool {
-    return material.light != TRACE_NONE || path.scatterings >= trace_frame.max_bounces;
+    return material.is_panel == 1u || path.scatterings >= trace_frame.max_bounces;
 }
 
-// A ray to a point on an area light, if that can light the surface.
+// A ray to a point on a light, if that can light the surface.
 fn path_shadow_ray(path: PathState, point: SurfacePoint, lobes: PathLobes, stream: ptr<function, u32>) -> ShadowRay {
     var shadow: ShadowRay;
     if trace_frame.light_count == 0u || trace_frame.light_sampling != LIGHT_SAMPLING_MIS {
         return shadow;
     }
-    let choice = rng_next(stream);
     shadow.origin = ray_offset(point.position, point.geometric_normal);
-    let light = light_sample(shadow.origin, choice, rng_next2(stream));
+    let light = light_sample(shadow.origin, stream);
     if light.pdf <= 0.0 || dot(light.direction, point.geometric_normal) <= 0.0 {
         return shadow;
     }
@@ -144,12 +149,12 @@ fn path_shadow_ray(path: PathState, point: SurfacePoint, lobes: PathLobes, strea
         return shadow;
     }
     let scatter_pdf = bsdf_pdf(lobes.bsdf, lobes.out_local, into_local);
-    let weight = light_mis_weight(light.pdf, scatter_pdf) / light.pdf;
+    let weight = light_mis_weight(light.pdf, scatter_pdf);
     shadow.direction = light.direction;
     // Stop short of the light, which is itself in the BVH.
     shadow.distance = light.distance * 0.9999;
     shadow.left = shadow.distance;
-    shadow.radiance = path.throughput * value * light.radiance * weight;
+    shadow.radiance = path.throughput * value * light.estimate * weight;
     shadow.share = 1.0;
     shadow.cone = path.cone;
     shadow.scatterings = path.scatterings + 1u;

@@ -2,8 +2,6 @@
 // fields, and a test compares names, offsets and sizes through naga.
 
 const TRACE_NONE: u32 = 0xffffffffu;
-// As many lights as fit a small uniform block; the host refuses more.
-const TRACE_MAX_LIGHTS: u32 = 16u;
 
 const SURFACE_DIFFUSE: u32 = 0u;
 const SURFACE_GLOSSY: u32 = 1u;
@@ -41,21 +39,13 @@ struct MaterialRecord {
     surface: u32,
     // First word of the vector texture in vtex_words, or TRACE_NONE.
     texture_word: u32,
-    // Index of the area light this surface is, or TRACE_NONE.
-    light: u32,
+    // Density per area with which its points are chosen as lights; 0 where its light is found by chance alone.
+    light_density: f32,
     // Which queue the stages put its lookups into.
     texture_queue: u32,
-    reserved1: u32,
-    reserved2: u32,
-}
-
-struct LightRecord {
-    corner: vec4f,
-    edge_u: vec4f,
-    edge_v: vec4f,
-    // Unit normal of the shining side; w is the area.
-    normal_area: vec4f,
-    radiance: vec4f,
+    // 1 for the rectangle of an area light, which shines from its front and scatters nothing.
+    is_panel: u32,
+    reserved: u32,
 }
 
 // What stays the same over a picture.
@@ -68,6 +58,9 @@ struct FrameRecord {
     sky_zenith: vec4f,
     sky_horizon: vec4f,
     sky_ground: vec4f,
+    // Cosine and sine of the angle by which the panorama is turned about y, what its texels are multiplied
+    // by, and the chance that it is chosen as a light.
+    environment_turn: vec4f,
     film_width: u32,
     film_height: u32,
     light_count: u32,
@@ -81,8 +74,13 @@ struct FrameRecord {
     camera_slope: f32,
     footprint_scale: f32,
     indirect_clamp: f32,
-    reserved: f32,
-    lights: array<LightRecord, 16>,
+    // A distance at which every ray has left the scene.
+    reach: f32,
+    // Where the lights lie among the nodes, and the cells of the panorama.
+    light_first: u32,
+    environment_first: u32,
+    environment_columns: u32,
+    environment_rows: u32,
 }
 
 // Which part of the work one dispatch does.

@@ -9,6 +9,7 @@
 
 mod awaited;
 mod batch;
+mod light;
 mod staged;
 
 use vtex_format::{CellWord, Grid, Meta, PaintRecord, VtexFile};
@@ -71,6 +72,8 @@ fn furnace(mesh: Mesh, material: Material) -> Scene {
         }],
         materials: vec![material],
         textures: Vec::new(),
+        environment: None,
+        punctual: Vec::new(),
         sky: Sky::uniform(1.0),
         lights: Vec::new(),
         camera: Camera {

@@ -6,6 +6,7 @@ use vtex_runtime::{
     Scene, Sky, TraceOptions, Tracer, Trust, scene,
 };
 
+use super::light::all_lights;
 use super::{RED, cells_file, furnace, glossy, gpu, lit_scene, lying_at, mean, quarters};
 
 /// What must hold of two pictures with the same random numbers.
@@ -184,6 +185,21 @@ fn cases() -> Vec<(&'static str, Scene, TraceOptions, [u32; 2])> {
             [96, 64],
         ),
         ("see-through surfaces", veils(), options, [64, 48]),
+        (
+            "a panorama, points and glow",
+            all_lights(),
+            options,
+            [64, 48],
+        ),
+        (
+            "a panorama found by chance",
+            all_lights(),
+            TraceOptions {
+                light_sampling: LightSampling::ScatterOnly,
+                ..options
+            },
+            [48, 32],
+        ),
         ("instances", instances(), options, [96, 64]),
         ("too many of them", stack_of_veils(), options, [32, 32]),
     ]

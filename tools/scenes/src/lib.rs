@@ -37,6 +37,8 @@ impl Room {
                 instances: Vec::new(),
                 materials: Vec::new(),
                 textures: Vec::new(),
+                environment: None,
+                punctual: Vec::new(),
                 sky: Sky {
                     zenith: [0.16, 0.20, 0.26],
                     horizon: [0.55, 0.57, 0.6],

@@ -59,6 +59,9 @@ fn full_folder() -> TempDir {
     let inside = folder.path();
     put(inside, "not-baked.vtex", SQUARE);
     put(inside, "slow.svg", &slow());
+    let hdr = |size: &str| format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n{size}\n");
+    put(inside, "huge.hdr", &hdr("-Y 4000000 +X 4000000"));
+    put(inside, "cut.hdr", &hdr("-Y 4 +X 8"));
     fs::create_dir(inside.join("parts")).expect("a folder");
     let texture = fs::read(inside.join("square.vtex")).expect("it was baked");
     fs::write(inside.join("parts/shader.wgsl"), &texture).expect("a file can be written");

@@ -120,3 +120,47 @@ fn a_drawing_keeps_its_colours_unless_told_otherwise() {
     assert_ne!(middle("--tone aces").1, agx);
     assert_eq!(middle("--showroom").0, "agx");
 }
+
+/// The means of the four channels of a PNG.
+fn means(bytes: Vec<u8>) -> [f64; 4] {
+    let mut png = png::Decoder::new(std::io::Cursor::new(bytes));
+    png.set_transformations(png::Transformations::EXPAND | png::Transformations::ALPHA);
+    let mut reader = png.read_info().expect("a picture");
+    let mut pixels = vec![0; reader.output_buffer_size().expect("a small picture")];
+    reader.next_frame(&mut pixels).expect("a picture");
+    let mut sums = [0.0; 4];
+    for pixel in pixels.chunks_exact(4) {
+        for (sum, &value) in sums.iter_mut().zip(pixel) {
+            *sum += f64::from(value);
+        }
+    }
+    sums.map(|sum| sum / (pixels.len() / 4) as f64)
+}
+
+#[test]
+fn panoramas_and_skies_light_the_scene() {
+    let Some(folder) = folder_for("panoramas of vtex render") else {
+        return;
+    };
+    let folder = folder.path();
+    let picture = |options: &str| means(render(folder, "x.png", options).1);
+    let near = |a: [f64; 4], b: [f64; 4]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 3.0);
+    // White in eight by four pixels: mantissas of one half and an exponent of one.
+    let mut white = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n".to_vec();
+    white.extend([128, 128, 128, 129].repeat(32));
+    fs::write(folder.join("white.hdr"), white).expect("a file can be written");
+    let plain = picture("--spp 16");
+    let lit = picture("--spp 64 --environment white.hdr --environment-turn -30");
+    assert!(near(plain, lit), "{plain:?} {lit:?}");
+    assert_eq!(picture("--sky 0"), [0.0, 0.0, 0.0, 255.0]);
+    // A panorama that was rendered here, of a dark square before a grey sky. The camera sees the middle
+    // of a panorama, unless it is turned.
+    render(folder, "square.exr", "--sky 0.5 --bounces 0");
+    let square = picture("--spp 16 --environment square.exr --bounces 0");
+    assert!(square[0] < 1.0, "{square:?}");
+    let turned = picture("--spp 16 --environment square.exr --bounces 0 --environment-turn 180");
+    assert!(
+        near(picture("--sky 0.5 --spp 16 --bounces 0"), turned),
+        "{turned:?}"
+    );
+}

@@ -316,7 +316,7 @@ impl<'a> Maker<'a> {
         let mut groups = vec![scene.group.clone(), self.state.group.clone()];
         groups.extend(third.map(|group| group.group.clone()));
         let context = LinkContext::default().fill("trace/stack", "state/stack");
-        let context = self.scene.world().levels(context);
+        let context = self.scene.code(context);
         let wgsl = linked(stage.module(), &context)?;
         Ok(Kernel {
             stage,

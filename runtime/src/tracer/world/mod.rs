@@ -47,6 +47,8 @@ pub(super) struct World {
     pub(super) dropped: u32,
     /// Entries of the first level.
     pub(super) first_level: u32,
+    /// A distance at which a ray that starts in the scene has left it.
+    pub(super) reach: f32,
     /// Number in its mesh of each stored triangle; of one that is placed, number in the scene.
     sources: Vec<u32>,
     /// Number in the scene of the first triangle of each instance that has a record.
@@ -89,6 +91,10 @@ impl World {
         let tree = bvh::build(&first.boxes);
         let depth = bvh::depth(&tree);
         self.first_level = index_u32(first.boxes.len());
+        if self.first_level > 0 {
+            let Aabb { min, max } = tree.total_aabb;
+            self.reach = 1.01 * (max - min).length();
+        }
         self.push_nodes(&tree);
         let mut entries: Vec<Entry> = Vec::with_capacity(first.boxes.len());
         for &index in &tree.primitive_indices {

@@ -29,6 +29,8 @@ fn crowded_scene() -> Scene {
         materials: vec![Material::default()],
         textures: Vec::new(),
         sky: Sky::uniform(1.0),
+        environment: None,
+        punctual: Vec::new(),
         lights: vec![RectLight {
             corner: [-1.0, 3.0, -1.0],
             edge_u: [2.0, 0.0, 0.0],

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use anyhow::{Context as _, Result};
 use vtex_format::{Features, SpecKey, VtexFile};
 use vtex_shaders::{
-    BindingSlot, FilterMode, LinkContext, PackOptions, batch_kernel, fragment, link, scene_context,
-    spec_key, without_instances,
+    BindingSlot, FilterMode, LightKinds, LinkContext, PackOptions, batch_kernel, fragment, link,
+    scene_context, spec_key, with_lights, without_instances,
 };
 
 use crate::subject::FILTERS;
@@ -134,8 +134,18 @@ const STAGES: [&str; 8] = [
     "film",
 ];
 
+/// Those of them that differ by the kinds of light.
+const WITH_LIGHTS: [&str; 2] = ["surface", "shade"];
+
 /// Those of them that differ in scenes with instances.
 const WITH_INSTANCES: [&str; 4] = ["hit", "surface", "shade", "shadow"];
+
+/// What every scene with lights has.
+const AREAS: LightKinds = LightKinds {
+    areas: true,
+    punctual: false,
+    environment: false,
+};
 
 /// The fragment in a fragment stage, as users embed it, and the kernels of the path tracer: all in one,
 /// then in stages.
@@ -155,7 +165,7 @@ pub(crate) fn fragment_and_tracer() -> Result<Vec<Kernel>> {
                 group: 1,
                 binding: 0,
             };
-            let context = without_instances(scene_context(features, slot));
+            let context = with_lights(without_instances(scene_context(features, slot)), AREAS);
             kernels.push(Kernel {
                 name: format!("path tracer, {name}, {mode}"),
                 wgsl: link("root/render", &context).context("the path tracer does not link")?,
@@ -170,11 +180,14 @@ pub(crate) fn fragment_and_tracer() -> Result<Vec<Kernel>> {
     // The fragments first, then the tracer.
     kernels.sort_by_key(|kernel| kernel.name.split(',').next().map(str::to_owned));
     let staged = || LinkContext::default().fill("trace/stack", "state/stack");
-    let with = staged();
-    let without = without_instances(staged());
+    let with = with_lights(staged(), AREAS);
+    let without = with_lights(without_instances(staged()), AREAS);
+    // Without a word of it a text has all kinds.
+    let all_lights = without_instances(staged());
     for (stage, context, of) in STAGES
         .map(|stage| (stage, &without, ""))
         .into_iter()
+        .chain(WITH_LIGHTS.map(|stage| (stage, &all_lights, ", all lights")))
         .chain(WITH_INSTANCES.map(|stage| (stage, &with, ", instances")))
     {
         let text = link(&format!("stage/{stage}"), context);

@@ -10,7 +10,7 @@ use vtex_truth::comparison::WINDOWS;
 use vtex_truth::picture::View;
 
 use super::Format;
-use super::light::Light;
+use super::light::{Light, Surroundings};
 use super::lookup::{Filter, Lookup};
 use super::values::{
     Color, Matrix, Profile, Size, bytes, color, matrix, number, seconds, size, view,
@@ -381,6 +381,9 @@ pub(crate) struct Render {
     /// How light becomes colours.
     #[command(flatten)]
     pub(crate) light: Light,
+    /// Light from everywhere else.
+    #[command(flatten)]
+    pub(crate) surroundings: Surroundings,
     /// How a lookup filters. Samples lie anywhere in their pixel, so that one a pixel is noisy in any
     /// mode
     #[arg(long, value_enum, default_value_t)]

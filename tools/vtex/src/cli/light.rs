@@ -2,10 +2,12 @@
 
 #![expect(clippy::doc_markdown, reason = "AgX is a name")]
 
+use std::path::PathBuf;
+
 use clap::{Args, ValueEnum};
 use vtex_runtime::ToneMap;
 
-use super::values::stops;
+use super::values::{degrees, level, stops};
 
 /// How the light of a traced picture becomes the colours of a PNG.
 #[derive(Clone, Copy, Debug, Args)]
@@ -19,6 +21,21 @@ pub(crate) struct Light {
     /// [default: 0]
     #[arg(long, value_name = "STOPS", value_parser = stops, allow_negative_numbers = true)]
     pub(crate) exposure: Option<f32>,
+}
+
+/// Light from everywhere else.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct Surroundings {
+    /// Panorama that lights the scene and is seen behind it: equirectangular, .hdr or .exr
+    #[arg(long, value_name = "HDR|EXR")]
+    pub(crate) environment: Option<PathBuf>,
+    /// Turn the panorama, whose middle lies towards -z, clockwise as seen from above [default: 0]
+    #[arg(long, value_name = "DEGREES", value_parser = degrees, requires = "environment", allow_negative_numbers = true)]
+    pub(crate) environment_turn: Option<f32>,
+    /// Radiance of a plain white sky instead of the scene's own; 0 for none [default: for glTF 1, or 0
+    /// where the asset has lights of its own]
+    #[arg(long, value_name = "RADIANCE", value_parser = level, conflicts_with = "environment", allow_negative_numbers = true)]
+    pub(crate) sky: Option<f32>,
 }
 
 /// How light becomes colours.

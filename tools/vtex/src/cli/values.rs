@@ -118,6 +118,27 @@ pub(super) fn stops(text: &str) -> Result<f32, String> {
     }
 }
 
+/// An angle.
+#[expect(clippy::cast_possible_truncation, reason = "angles are f32")]
+pub(super) fn degrees(text: &str) -> Result<f32, String> {
+    match number(text)? {
+        degrees if degrees.abs() <= 360.0 => Ok(degrees as f32),
+        _ => Err("degrees must lie between -360 and 360".to_owned()),
+    }
+}
+
+/// Brightest sky: no more than the sun.
+const MAX_RADIANCE: f64 = 1e10;
+
+/// A radiance.
+#[expect(clippy::cast_possible_truncation, reason = "light is f32")]
+pub(super) fn level(text: &str) -> Result<f32, String> {
+    match number(text)? {
+        level if (0.0..=MAX_RADIANCE).contains(&level) => Ok(level as f32),
+        _ => Err(format!("radiance must lie between 0 and {MAX_RADIANCE}")),
+    }
+}
+
 /// Longest time limit: eleven days.
 const MAX_SECONDS: f64 = 1e6;
 
@@ -192,6 +213,8 @@ mod tests {
     fn stops_and_seconds() {
         assert_eq!((stops("-1.5"), stops(" 32")), (Ok(-1.5), Ok(32.0)));
         assert!(stops("33").is_err() && stops("nan").is_err() && stops("").is_err());
+        assert_eq!((degrees("-90"), level("0")), (Ok(-90.0), Ok(0.0)));
+        assert!(degrees("361").is_err() && level("-1").is_err() && level("inf").is_err());
         assert_eq!(seconds("0.25"), Ok(Duration::from_millis(250)));
         for wrong in ["0", "-1", "inf", "nan", "2e6", "1m"] {
             assert!(seconds(wrong).is_err(), "{wrong}");

@@ -61,7 +61,8 @@ pub(super) fn run(args: Demo, console: Console) -> Outcome<ExitCode> {
             .iter()
             .map(|drawing| drawing.file.clone())
             .collect();
-        let film = film::trace(files, SceneKind::Showroom, SCENE, console)?.film;
+        let scene = film::scene_of(files, SceneKind::Showroom);
+        let film = film::trace(scene, SCENE, console)?.film;
         let png = film::encode(&film, GRADE, Path::new("scene.png"))?;
         page.large_picture(
             png,

@@ -16,6 +16,7 @@ use crate::cli::light::Tone;
 use crate::cli::{Console, ExitCode, Failure, Format, Outcome, Size};
 use crate::files::{extension, input, lossy, output};
 use crate::texture::film::{self, Grade, SceneKind, Settings, Traced};
+use crate::texture::panorama;
 use crate::{baking, texture};
 
 /// Runs `vtex render`.
@@ -86,8 +87,10 @@ fn drawings(args: &Render, fonts: &FontLibrary, console: Console) -> Outcome<(Pi
         // The camera of the showroom is framed for 3:2.
         (Size::Longer(longer), ..) => [longer, (longer * 2 / 3).max(1)],
     };
+    let mut scene = film::scene_of(files, kind);
+    panorama::surround(&mut scene, &args.surroundings)?;
     let picture = Picture {
-        traced: film::trace(files, kind, settings(args, size_px), console)?,
+        traced: film::trace(scene, settings(args, size_px), console)?,
         warnings: Vec::new(),
     };
     Ok((picture, kind))
@@ -116,8 +119,9 @@ fn asset(args: &Render, fonts: &FontLibrary, console: Console) -> Outcome<Pictur
     let camera = beside::camera(&asset, args.camera.as_deref(), aspect)?;
     let mut scene = asset.scene;
     scene.camera = camera;
+    panorama::surround(&mut scene, &args.surroundings)?;
     Ok(Picture {
-        traced: film::trace_scene(scene, settings(args, size_px), console)?,
+        traced: film::trace(scene, settings(args, size_px), console)?,
         warnings: asset.warnings,
     })
 }

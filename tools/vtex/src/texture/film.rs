@@ -60,32 +60,19 @@ const SAMPLES_A_STEP: u32 = 4;
 /// Time between two counts of the rays, each of which reads a number for each pixel.
 const COUNT_INTERVAL: Duration = Duration::from_secs(1);
 
-/// Traces a picture of `files`.
-///
-/// # Errors
-/// When there is no GPU, when it fails, or when the textures do not fit into its limits.
-pub(crate) fn trace(
-    files: Vec<VtexFile>,
-    kind: SceneKind,
-    settings: Settings,
-    console: Console,
-) -> Outcome<Traced> {
-    let scene = match (kind, files.first()) {
+/// A scene of `files`.
+pub(crate) fn scene_of(files: Vec<VtexFile>, kind: SceneKind) -> Scene {
+    match (kind, files.first()) {
         (SceneKind::Plane, Some(file)) => scene::plane(file.clone(), LoadOptions::default()),
         _ => showroom(files),
-    };
-    trace_scene(scene, settings, console)
+    }
 }
 
 /// Traces a picture of `scene`.
 ///
 /// # Errors
-/// As [`trace`].
-pub(crate) fn trace_scene(
-    mut scene: Scene,
-    settings: Settings,
-    console: Console,
-) -> Outcome<Traced> {
+/// When there is no GPU, when it fails, or when the textures do not fit into its limits.
+pub(crate) fn trace(mut scene: Scene, settings: Settings, console: Console) -> Outcome<Traced> {
     let gpu = Gpu::headless()?;
     console.detail(&format!("tracing on {}", gpu.adapter_name()));
     check_size(settings.size_px, &gpu)?;
@@ -103,6 +90,9 @@ pub(crate) fn trace_scene(
         "{} triangles in {} bytes on the device",
         stats.triangles, stats.geometry_bytes
     ));
+    for notice in tracer.notices() {
+        console.note(notice);
+    }
     if stats.dropped_triangles > 0 {
         console.note(&format!(
             "{} triangles are too small, too large or without area, and were left out",

@@ -3,6 +3,7 @@
 pub(crate) mod film;
 pub(crate) mod heat;
 pub(crate) mod lookup_cost;
+pub(crate) mod panorama;
 
 use std::path::Path;
 

@@ -206,6 +206,8 @@ fn wall(files: Vec<VtexFile>) -> Scene {
             .into_iter()
             .map(|file| (file, LoadOptions::default()))
             .collect(),
+        environment: None,
+        punctual: Vec::new(),
         sky: Sky::uniform(0.6),
         lights: vec![RectLight {
             corner: [-0.5, 2.0, 1.0],
