@@ -2,6 +2,7 @@
 
 mod corpus;
 mod curve_cells;
+mod emptiness;
 mod gradients;
 mod pictures;
 mod profiles;

@@ -16,9 +16,9 @@ const COMMAND_COST: f64 = 0.27;
 const FOOTPRINT_COMMAND_COST: f64 = 0.45;
 /// Cost of reading a second word.
 const BLOCK_COST: f64 = 0.05;
-/// Cost of a MiB for points. What it is worth in time is a judgement: each must save a mean lookup three
-/// commands in eight (docs/decisions/0030 has other values).
-const MIB_COST: f64 = 0.1;
+/// Cost of a MiB for points. What it is worth in time is a judgement: each must save a mean lookup five
+/// commands in nine (docs/decisions/0030 has other values).
+const MIB_COST: f64 = 0.15;
 /// The same for footprints: two commands in fifteen (docs/decisions/0019).
 const FOOTPRINT_MIB_COST: f64 = 0.06;
 /// Bytes of a cell of a block that is narrow, as nearly all are where lookups are of points.

@@ -57,8 +57,11 @@ fn pack(items: &[Placed], window: Rect, spacing: f64) -> Packing {
     for index in 0..items.len() {
         packer.add(index);
     }
+    // Items that meet nothing inside the window, and clips without anything to clip, are in rank 0 without
+    // being its members.
+    let count = packer.members.len().max(usize::from(!items.is_empty()));
     Packing {
-        count: ranks_to_u32(packer.members.len()),
+        count: ranks_to_u32(count),
         ranks: packer
             .ranks
             .iter()
