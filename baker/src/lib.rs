@@ -39,7 +39,8 @@
 //!
 //! # Inside
 //!
-//! Data flows through the folders in this order: `svg` reads the text and walks its tree, `drawing`
+//! Data flows through the folders in this order: `svg` reads the text, has `style` put attributes in
+//! place of styles that usvg does not know, and walks the tree, `drawing`
 //! holds the result, `geometry` prepares outlines, `coverage` decides how each shape covers the
 //! cells of a grid, `cells` builds the list of each cell, `raster` makes patches and mips.
 //! `pipeline` runs these stages; read it first.
@@ -58,6 +59,7 @@ mod number;
 pub mod oracle;
 mod pipeline;
 mod raster;
+mod style;
 mod svg;
 #[cfg(test)]
 mod testing;
@@ -68,7 +70,7 @@ mod warning;
 pub use config::{BakeConfig, ImageReader, Mode, Profile, Resources, Stage};
 pub use error::BakeError;
 pub use pipeline::{bake, bake_observed};
-pub use svg::font_selector;
+pub use svg::{font_selector, styled_text};
 
 /// The examples of README.md, which run as tests.
 #[cfg(doctest)]

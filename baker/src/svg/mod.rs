@@ -10,6 +10,6 @@ mod walk;
 
 pub(crate) use cost::Cost;
 pub(crate) use plan::{Plan, PlanItem, Subtree};
-pub use source::font_selector;
 pub(crate) use source::parse;
+pub use source::{font_selector, styled_text};
 pub(crate) use walk::{WalkOptions, plan};

@@ -15,6 +15,19 @@ const ENDLESS: [&str; 4] = [
     "32_filter_bomb.svg",
 ];
 
+/// The drawings whose styles usvg does not read as browsers do, and why.
+const STYLED: [(&str, &str); 5] = [
+    ("flags/flag-icons__pf.svg", "a width in a style"),
+    ("games/gnome-mahjongg__keyboard-key-pause.svg", MEDIUM),
+    ("games/pychess__bn_3.svg", MEDIUM),
+    ("games/pychess__wq.svg", MEDIUM),
+    (
+        "technical/inkscape-open-symbols__suru-icon-devices.svg",
+        MEDIUM,
+    ),
+];
+const MEDIUM: &str = "a font size by its name";
+
 /// The corpus, where slow tests run.
 #[track_caller]
 fn corpus(untested: &str) -> Option<Corpus> {
@@ -41,6 +54,25 @@ fn raster_mode_paints_the_tiger() {
     let sum: f64 = pairs.map(|(a, b)| f64::from(a.abs_diff(*b)).powi(2)).sum();
     let rms = (sum / from_shapes.len() as f64).sqrt();
     assert!(rms < 2.5, "{rms} codes apart");
+}
+
+#[test]
+fn drawings_that_usvg_reads_as_browsers_do_reach_it_untouched() {
+    let Some(corpus) = corpus("which drawings the style stage changes") else {
+        return;
+    };
+    let mut touched = Vec::new();
+    for file in corpus.drawings() {
+        let svg = std::fs::read(&file).unwrap();
+        // Compressed and broken ones aside.
+        let Ok(text) = String::from_utf8(svg) else {
+            continue;
+        };
+        if crate::styled_text(text.as_bytes()).is_ok_and(|styled| styled != text) {
+            touched.push(corpus.name(&file));
+        }
+    }
+    assert_eq!(touched, STYLED.map(|(name, _)| name));
 }
 
 #[test]

@@ -120,7 +120,7 @@ pub enum WarningCode {
     MergeOverlap = 5,
     /// The drawing shows nothing.
     EmptyDrawing = 6,
-    /// A budget reduced quality.
+    /// A budget reduced quality, or a feature of the SVG is not drawn as browsers draw it.
     Reduced = 7,
     /// The texture takes more of a GPU's memory than the caller of the bake wants.
     GpuBytes = 8,

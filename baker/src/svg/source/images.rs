@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use imagesize::ImageType;
-use usvg::{ImageHrefResolver, ImageKind, Options, Tree};
+use usvg::{ImageHrefResolver, ImageKind, Options};
 use vtex_format::WarningCode;
 
 use super::{
     fonts,
     text::{GZIP_MAGIC, checked_text},
+    tree,
 };
 use crate::{config::ImageReader, warning::Warnings};
 
@@ -118,10 +119,11 @@ fn nested(data: &[u8], nest: Nest<'_>, outer: &Options<'_>) -> Result<ImageKind,
         image_href_resolver: at_level(nest.warnings, None, nest.level + 1),
         font_resolver: fonts::resolver(nest.warnings),
         fontdb: Arc::clone(&outer.fontdb),
+        font_size: outer.font_size,
         ..Options::default()
     };
     // `from_data_nested` would drop linked images without asking the hook, so without a warning.
-    Tree::from_str(text, &options)
+    tree(text, &options, nest.warnings)
         .map(ImageKind::SVG)
         .map_err(|e| e.to_string())
 }

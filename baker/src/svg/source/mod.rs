@@ -9,13 +9,19 @@ mod images;
 mod limits;
 mod text;
 
+use std::borrow::Cow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use crate::{config::Resources, error::BakeError, warning::Warnings};
+use usvg::roxmltree::{Document, ParsingOptions};
+
+use crate::{config::Resources, error::BakeError, style, warning::Warnings};
 use limits::{check_filters, check_size};
 use text::{GZIP_MAGIC, checked_text, gunzip};
 
 pub use fonts::font_selector;
+
+/// Size of text without a size: CSS's `medium` in browsers. usvg's own default is 12.
+const FONT_SIZE_PX: f32 = 16.0;
 
 /// Parses an SVG or SVGZ, at 96 dpi.
 ///
@@ -27,28 +33,66 @@ pub(crate) fn parse(
     resources: &Resources,
     warnings: &Warnings,
 ) -> Result<usvg::Tree, BakeError> {
-    let unpacked;
-    let bytes = if svg.starts_with(&GZIP_MAGIC) {
-        unpacked = gunzip(svg)?;
-        unpacked.as_slice()
-    } else {
-        svg
-    };
-    let text = checked_text(bytes)?;
+    let bytes = unpacked(svg)?;
+    let text = checked_text(&bytes)?;
     let options = usvg::Options {
         dpi: 96.0,
         image_href_resolver: images::resolver(warnings, resources.images.as_ref()),
         font_resolver: fonts::resolver(warnings),
         fontdb: resources.fonts.clone(),
+        font_size: FONT_SIZE_PX,
         ..usvg::Options::default()
     };
     // usvg is not known to panic, but the input may be hostile.
-    let tree = catch_unwind(AssertUnwindSafe(|| usvg::Tree::from_str(text, &options)))
-        .map_err(|_| BakeError::Svg("the SVG parser failed".to_owned()))?
-        .map_err(|e| bake_error(&e))?;
+    let tree = catch_unwind(AssertUnwindSafe(|| tree(text, &options, warnings)))
+        .map_err(|_| BakeError::Svg("the SVG parser failed".to_owned()))??;
     check_size(&tree)?;
     check_filters(&tree)?;
     Ok(tree)
+}
+
+/// The text that a bake of an SVG or SVGZ hands to usvg: its own, or, where it has styles that usvg
+/// does not read as browsers do, one with attributes in their place. Use it, with
+/// [`font_selector`] and a font size of 16, to draw the same SVG with usvg.
+///
+/// # Errors
+/// [`BakeError::Svg`] for what is no SVG, [`BakeError::Limit`] for styles that ask for too much.
+pub fn styled_text(svg: &[u8]) -> Result<String, BakeError> {
+    let bytes = unpacked(svg)?;
+    let text = checked_text(&bytes)?;
+    let failed = |e| bake_error(&usvg::Error::ParsingFailed(e));
+    let styled = style::resolve(&document(text).map_err(failed)?, &Warnings::default())?;
+    Ok(styled.unwrap_or_else(|| text.to_owned()))
+}
+
+fn unpacked(svg: &[u8]) -> Result<Cow<'_, [u8]>, BakeError> {
+    match svg.starts_with(&GZIP_MAGIC) {
+        true => gunzip(svg).map(Cow::Owned),
+        false => Ok(Cow::Borrowed(svg)),
+    }
+}
+
+/// The tree of an SVG with its styles as browsers read them.
+fn tree(
+    text: &str,
+    options: &usvg::Options<'_>,
+    warnings: &Warnings,
+) -> Result<usvg::Tree, BakeError> {
+    let failed = |e| bake_error(&usvg::Error::ParsingFailed(e));
+    let document = document(text).map_err(failed)?;
+    match style::resolve(&document, warnings)? {
+        None => usvg::Tree::from_xmltree(&document, options).map_err(|e| bake_error(&e)),
+        Some(text) => usvg::Tree::from_str(&text, options).map_err(|e| bake_error(&e)),
+    }
+}
+
+/// Parses XML as usvg does.
+fn document(text: &str) -> Result<Document<'_>, usvg::roxmltree::Error> {
+    let options = ParsingOptions {
+        allow_dtd: true,
+        ..ParsingOptions::default()
+    };
+    Document::parse_with_options(text, options)
 }
 
 fn bake_error(error: &usvg::Error) -> BakeError {

@@ -64,6 +64,8 @@ impl Reference {
     pub fn parse(svg: &[u8], fonts: Arc<fontdb::Database>, edges: Edges) -> Result<Self, String> {
         let mut options = usvg::Options {
             fontdb: fonts,
+            // As in a bake, and in browsers.
+            font_size: 16.0,
             ..usvg::Options::default()
         };
         if edges == Edges::Crisp {
@@ -74,7 +76,9 @@ impl Reference {
         options.image_href_resolver.resolve_string = Box::new(|_, _| None);
         // The same faces as a bake chooses; with others, glyphs would differ.
         options.font_resolver.select_font = vtex_baker::font_selector();
-        let tree = usvg::Tree::from_data(svg, &options).map_err(|error| error.to_string())?;
+        // Styles that usvg does not know are those of the bake; docs/decisions/0028 says who checks them.
+        let text = vtex_baker::styled_text(svg).map_err(|error| error.to_string())?;
+        let tree = usvg::Tree::from_str(&text, &options).map_err(|error| error.to_string())?;
         let plain = match edges {
             Edges::Crisp => PlainPaths::new(&tree),
             Edges::Smooth => None,
