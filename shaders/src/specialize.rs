@@ -71,6 +71,12 @@ pub fn without_instances(context: LinkContext) -> LinkContext {
         .fill("trace/world/levels", "trace/world/levels_one")
 }
 
+/// `context` for a path tracer of scenes whose see-through textures tell nothing without a lookup: traversal
+/// then reads no attributes and no materials.
+pub fn without_cutouts(context: LinkContext) -> LinkContext {
+    context.fill("trace/world/cutout", "trace/world/cutout_none")
+}
+
 /// Kinds of light that a scene has; see [`with_lights`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LightKinds {

@@ -1,5 +1,6 @@
 //! The progressive path tracer.
 
+mod albedo;
 mod bvh;
 mod film;
 mod intersect;
@@ -7,6 +8,9 @@ mod lights;
 mod options;
 mod passes;
 mod pipeline;
+#[cfg(test)]
+#[cfg(feature = "blocking")]
+mod proofs;
 mod queues;
 pub(crate) mod records;
 mod stages;

@@ -173,7 +173,8 @@ impl QueryPipeline {
         scene: &SceneBuffers,
     ) -> Result<Self, RuntimeError> {
         // It reads triangles alone, so no evaluator of textures is linked.
-        let context = scene.code(LinkContext::default());
+        // And it meets surfaces wherever they are.
+        let context = vtex_shaders::without_cutouts(scene.code(LinkContext::default()));
         let wgsl = linked("root/intersect", &context)?;
         compiled(device, "ray query", || {
             let query_layout = buffers_layout(device, "vtex queries", QUERY_GROUP);

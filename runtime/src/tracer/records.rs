@@ -44,7 +44,7 @@ pub(crate) struct MaterialRecord {
     pub(crate) light_density: f32,
     pub(crate) texture_queue: u32,
     pub(crate) is_panel: u32,
-    pub(crate) reserved: u32,
+    pub(crate) cutout: u32,
 }
 
 #[repr(C)]
@@ -74,6 +74,10 @@ pub(crate) struct FrameRecord {
     pub(crate) environment_first: u32,
     pub(crate) environment_columns: u32,
     pub(crate) environment_rows: u32,
+    pub(crate) albedo_first: u32,
+    pub(crate) reserved0: u32,
+    pub(crate) reserved1: u32,
+    pub(crate) reserved2: u32,
 }
 
 #[repr(C)]
@@ -129,14 +133,15 @@ mod tests {
             AttributeRecord { normal0_u, normal1_u, normal2_u, v_material }
             MaterialRecord {
                 base_color, emission, backing, metallic, ggx_alpha, surface, texture_word,
-                light_density, texture_queue, is_panel, reserved,
+                light_density, texture_queue, is_panel, cutout,
             }
             FrameRecord {
                 camera_position, camera_right, camera_up, camera_forward, sky_zenith, sky_horizon,
                 sky_ground, environment_turn, film_width, film_height, light_count, triangle_count, seed,
                 max_bounces, light_sampling, transparent_background, camera_slope,
                 footprint_scale, indirect_clamp, reach, light_first, environment_first,
-                environment_columns, environment_rows,
+                environment_columns, environment_rows, albedo_first, reserved0, reserved1,
+                reserved2,
             }
             PassRecord { row_first, row_count, sample_first, sample_count }
             RayRecord { origin_t_max, direction }

@@ -1,21 +1,24 @@
 //! A scene as buffers on the device.
 
+use std::collections::BTreeMap;
+
 use glam::Vec3;
 use vtex_shaders::{LightKinds, LinkContext};
 use wgpu::{BindingResource, Buffer, BufferUsages, Device, Queue};
 
 use super::TraceOptions;
+use super::albedo;
 use super::lights::{LIGHT_GROUPS, Lights, PanoramaTexture};
 use super::queues::TextureQueues;
 use super::records::{FrameRecord, MaterialRecord, NONE, SURFACE_DIFFUSE, SURFACE_GLOSSY};
 use super::textures::PackedTextures;
-use super::world::{World, index_u32};
+use super::world::{Cutout, World, index_u32};
 use crate::RuntimeError;
 use crate::device::{Uploaded, checked, filled_buffer};
 use crate::scene::{Camera, Material, Scene, Surface};
 
 /// GGX turns into a mirror below this, and f32 loses its peak.
-const MIN_GGX_ALPHA: f32 = 0.001;
+pub(super) const MIN_GGX_ALPHA: f32 = 0.001;
 
 /// The scene on the device.
 #[derive(Debug)]
@@ -34,6 +37,7 @@ pub(super) struct SceneBuffers {
     texture_places: Vec<[u32; 2]>,
     queues: TextureQueues,
     has_veils: bool,
+    has_cutouts: bool,
     /// Numbers of triangles; what was uploaded is not kept.
     world: World,
 }
@@ -54,9 +58,11 @@ impl SceneBuffers {
             .map(<[u32; 2]>::from)
             .collect();
         let mut lights = Lights::new(scene);
-        let materials = material_records(scene, &lookups, &lights.densities);
+        let mut materials = material_records(scene, &lookups, &lights.densities);
         let frame_record = frame_record(scene, size, options, &world, &lights)?;
         world.nodes.append(&mut lights.groups);
+        world.nodes.extend(albedo::table());
+        let has_cutouts = add_cutouts(scene, &mut world, &mut materials);
         checked(device, "scene", || {
             let filled =
                 |label, bytes: &[u8], usage| filled_buffer(device, queue, label, bytes, usage);
@@ -79,6 +85,7 @@ impl SceneBuffers {
                 texture_features: packed.features,
                 texture_places: packed.places,
                 queues,
+                has_cutouts,
                 has_veils: (scene.instances.iter())
                     .any(|instance| scene.materials[instance.material].is_veil()),
                 world: {
@@ -108,7 +115,16 @@ impl SceneBuffers {
     /// `context` with the code that this scene needs: any text that imports `trace/bvh` or `trace/light`
     /// is to be linked with it.
     pub(super) fn code(&self, context: LinkContext) -> LinkContext {
+        let context = match self.has_cutouts {
+            true => context,
+            false => vtex_shaders::without_cutouts(context),
+        };
         vtex_shaders::with_lights(self.world.levels(context), self.light_kinds)
+    }
+
+    /// Whether traversal reads textures' cells.
+    pub(super) fn has_cutouts(&self) -> bool {
+        self.has_cutouts
     }
 
     /// What of the scene's light was left out.
@@ -177,6 +193,25 @@ fn material_records(scene: &Scene, lookups: &[[u32; 2]], densities: &[f32]) -> V
         .collect()
 }
 
+/// Puts cutouts among the nodes and their places into the materials; whether there are any.
+fn add_cutouts(scene: &Scene, world: &mut World, materials: &mut [MaterialRecord]) -> bool {
+    let mut known: BTreeMap<usize, u32> = BTreeMap::new();
+    for (material, record) in scene.materials.iter().zip(materials) {
+        let Some(texture) = material.texture.filter(|_| material.is_veil()) else {
+            continue;
+        };
+        record.cutout = *known.entry(texture).or_insert_with(|| {
+            let (file, options) = &scene.textures[texture];
+            Cutout::new(file, options).map_or(0, |cutout| {
+                let place = index_u32(world.nodes.len());
+                world.nodes.extend(cutout.groups());
+                place
+            })
+        });
+    }
+    known.values().any(|&place| place != 0)
+}
+
 fn material_record(material: &Material, lookups: &[[u32; 2]]) -> MaterialRecord {
     let lookup = material.texture.map(|index| lookups[index]);
     let [texture_word, texture_queue] = lookup.unwrap_or([NONE, 0]);
@@ -198,7 +233,7 @@ fn material_record(material: &Material, lookups: &[[u32; 2]]) -> MaterialRecord 
         light_density: 0.0,
         texture_queue,
         is_panel: 0,
-        reserved: 0,
+        cutout: 0,
     }
 }
 
@@ -244,6 +279,10 @@ fn frame_record(
         environment_first,
         environment_columns: grid[0],
         environment_rows: grid[1],
+        albedo_first: light_first + index_u32(lights.groups.len()),
+        reserved0: 0,
+        reserved1: 0,
+        reserved2: 0,
     };
     set_camera(&mut frame, &scene.camera)?;
     Ok(frame)

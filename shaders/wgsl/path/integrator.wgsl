@@ -32,7 +32,7 @@ fn integrator_light(path: ptr<function, PathState>, first: ShadowRay) {
             (*path).color = path_lit((*path).color, shadow);
             return;
         }
-        if !bvh_is_veil(hit) {
+        if bvh_stops(hit) {
             return;
         }
         let point = surface_at(ray, hit, path_shadow_cone(shadow, hit.t));

@@ -19,7 +19,7 @@ fn stage_shadow(
     var about = state_word(path, STATE_LOOKUP);
     about.y += 1u;
     state_set(path, STATE_LOOKUP, about);
-    if hit.triangle != TRACE_NONE && bvh_is_veil(hit) {
+    if hit.triangle != TRACE_NONE && !bvh_stops(hit) {
         state_set_hit(path, hit);
         list_push(entry | ENTRY_VEIL);
         return;

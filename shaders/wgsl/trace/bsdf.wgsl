@@ -1,16 +1,23 @@
-//!use trace/layout
+//!use trace/albedo
 //!use trace/rng
-// How light scatters at a surface: Lambert, or GGX over Lambert as in glTF 2.0 appendix B.
-// Directions are local, the shading normal is +z, both point away from the surface.
+// How light scatters at a surface: Lambert, or GGX over Lambert as in glTF 2.0 appendix B. Directions are
+// local, the shading normal is +z, both point away from the surface.
+//
+// Light that microfacets send to each other is added by a scale of the single-scattering lobe (Turquin,
+// Practical Multiple Scattering Compensation for Microfacet Models, 2019), and Lambert gets what the lobe
+// above leaves of it, so that no surface reflects more than comes in and a white one as much.
 
 const BSDF_PI: f32 = 3.14159265;
 // Reflectance of a dielectric of index 1.5 seen straight on.
 const BSDF_DIELECTRIC: f32 = 0.04;
 
 struct Bsdf {
+    // What the specular lobe leaves of it.
     diffuse: vec3f,
     // Reflectance seen straight on.
     specular: vec3f,
+    // By how much more than single scattering a surface that reflects all light sends back, less 1.
+    lost: f32,
     ggx_alpha: f32,
     // Share of the samples drawn from the specular lobe.
     specular_share: f32,
@@ -26,15 +33,20 @@ struct BsdfSample {
 
 fn bsdf_new(material: MaterialRecord, base_color: vec3f, out_direction: vec3f) -> Bsdf {
     if material.surface == SURFACE_DIFFUSE {
-        return Bsdf(base_color, vec3f(0.0), 1.0, 0.0);
+        return Bsdf(base_color, vec3f(0.0), 0.0, 1.0, 0.0);
     }
     let specular = mix(vec3f(BSDF_DIELECTRIC), base_color, material.metallic);
-    let diffuse = base_color * (1.0 - material.metallic);
-    let shine = bsdf_luminance(bsdf_fresnel(specular, out_direction.z));
+    let albedo = albedo_of(out_direction.z, material.ggx_alpha);
+    let lost = 1.0 / max(albedo.x + albedo.y, 0.01) - 1.0;
+    let reflected = (specular * albedo.x + albedo.y) * (1.0 + specular * lost);
+    // Below a dielectric, of which a surface that is half a metal is half.
+    let dielectric = (BSDF_DIELECTRIC * albedo.x + albedo.y) * (1.0 + BSDF_DIELECTRIC * lost);
+    let diffuse = base_color * ((1.0 - material.metallic) * max(1.0 - dielectric, 0.0));
+    let shine = bsdf_luminance(reflected);
     let glow = bsdf_luminance(diffuse);
     // Each lobe that reflects anything gets at least a tenth.
     let share = select(clamp(shine / max(shine + glow, 1e-6), 0.1, 0.9), 1.0, glow == 0.0);
-    return Bsdf(diffuse, specular, material.ggx_alpha, share);
+    return Bsdf(diffuse, specular, lost, material.ggx_alpha, share);
 }
 
 fn bsdf_luminance(color: vec3f) -> f32 {
@@ -73,8 +85,8 @@ fn bsdf_evaluate(bsdf: Bsdf, out_direction: vec3f, into: vec3f) -> vec3f {
     let fresnel = bsdf_fresnel(bsdf.specular, dot(half_vector, into));
     let alpha = bsdf.ggx_alpha;
     let masking = 1.0 / (1.0 + bsdf_lambda(out_direction, alpha) + bsdf_lambda(into, alpha));
-    let shine = fresnel * (bsdf_distribution(half_vector, alpha) * masking / (4.0 * out_direction.z));
-    return shine + (1.0 - fresnel) * bsdf.diffuse * (into.z / BSDF_PI);
+    let single = bsdf_distribution(half_vector, alpha) * masking / (4.0 * out_direction.z);
+    return fresnel * (1.0 + bsdf.specular * bsdf.lost) * single + bsdf.diffuse * (into.z / BSDF_PI);
 }
 
 fn bsdf_pdf(bsdf: Bsdf, out_direction: vec3f, into: vec3f) -> f32 {

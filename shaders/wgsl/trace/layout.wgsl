@@ -45,7 +45,8 @@ struct MaterialRecord {
     texture_queue: u32,
     // 1 for the rectangle of an area light, which shines from its front and scatters nothing.
     is_panel: u32,
-    reserved: u32,
+    // Where its texture's cutout lies among the nodes, 0 for none: see trace/world/cutout.
+    cutout: u32,
 }
 
 // What stays the same over a picture.
@@ -81,6 +82,11 @@ struct FrameRecord {
     environment_first: u32,
     environment_columns: u32,
     environment_rows: u32,
+    // Where the table of trace/albedo lies among the nodes.
+    albedo_first: u32,
+    reserved0: u32,
+    reserved1: u32,
+    reserved2: u32,
 }
 
 // Which part of the work one dispatch does.

@@ -2,6 +2,7 @@
 //!use trace/ray
 //!use trace/world/instance
 //!use trace/world/levels
+//!use trace/world/veil
 //!use trace/cone
 // What lies where a ray hit: position, normals, uv and the footprint of the ray cone in uv.
 
@@ -16,14 +17,6 @@ struct SurfacePoint {
     material: u32,
     // The ray came from where the triangle turns counter-clockwise.
     front: bool,
-}
-
-// The number of the material that a ray met.
-fn surface_material(hit: Hit) -> u32 {
-    if WORLD_HAS_INSTANCES && hit.instance != 0u {
-        return instance_material(hit.instance);
-    }
-    return bitcast<u32>(trace_attributes[hit.triangle].v_material.w);
 }
 
 // Rays nearly along a surface have footprints without end; they stop at this many cone widths.

@@ -301,6 +301,7 @@ impl<'a> Maker<'a> {
     fn kernel(&self, stage: Stage) -> Result<Kernel, RuntimeError> {
         let scene = match stage {
             Stage::Surface | Stage::Veil | Stage::Shade => &self.shading,
+            Stage::Hit | Stage::Shadow if self.scene.has_cutouts() => &self.shading,
             _ => &self.traversal,
         };
         let third = match stage {

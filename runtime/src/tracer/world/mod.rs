@@ -4,6 +4,7 @@
 //! placed several times: such a mesh has a hierarchy of its own, stored once. Meshes that are placed
 //! once, and small ones, are placed here, so that a scene without repetition has one level.
 
+mod cutout;
 mod instance;
 mod mesh;
 #[cfg(test)]
@@ -20,6 +21,7 @@ use super::bvh;
 use super::records::{AttributeRecord, NONE, TriangleRecord};
 use crate::RuntimeError;
 use crate::scene::{Instance, MAX_TRIANGLES, RectLight, Scene};
+pub(super) use cutout::Cutout;
 use instance::{Placement, RECORD_GROUPS, record};
 use mesh::{MeshTree, Placed, triangle_record};
 

@@ -2,6 +2,7 @@
 //!use trace/ray
 //!use trace/world/instance
 //!use trace/world/levels
+//!use trace/world/cutout
 // Nodes and triangles of a compressed wide BVH: Ylitie, Karras, Laine, Efficient Incoherent Ray Traversal
 // on GPUs Through Compressed Wide BVHs, HPG 2017. Node layout and order of visits are those of
 // the obvhs crate, whose CPU traversal gives the same hit to the bit where the device rounds
@@ -103,15 +104,10 @@ fn bvh_hit_triangle(index: u32, instance: u32, ray: Ray, hit: Hit) -> Hit {
     let signs = (bitcast<u32>(u) | bitcast<u32>(v) | bitcast<u32>(w)) & 0x80000000u;
     let t = bvh_dot(normal, c) * inverse_determinant;
     if inverse_determinant != 0.0 && signs == 0u && t >= 0.0 && t < hit.t {
-        return Hit(t, index, instance, vec2f(u, v));
+        let found = Hit(t, index, instance, vec2f(u, v));
+        if !cutout_hides(found) {
+            return found;
+        }
     }
     return hit;
-}
-
-// Whether a surface may let rays through. Other ones stop a shadow ray wherever they are met.
-fn bvh_is_veil(hit: Hit) -> bool {
-    if WORLD_HAS_INSTANCES && hit.instance != 0u {
-        return instance_is_veil(hit.instance);
-    }
-    return trace_triangles[hit.triangle].edge1.w != 0.0;
 }

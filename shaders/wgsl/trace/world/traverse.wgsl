@@ -49,7 +49,7 @@ fn bvh_traverse(ray: Ray, any_hit: bool) -> Hit {
             let link = bitcast<u32>(trace_triangles[index].v0.w);
             if link == 0u {
                 hit = bvh_hit_triangle(index, instance, local, hit);
-                if any_hit && hit.triangle != TRACE_NONE && !bvh_is_veil(hit) {
+                if any_hit && hit.triangle != TRACE_NONE && bvh_stops(hit) {
                     return hit;
                 }
                 continue;

@@ -31,7 +31,7 @@ fn bvh_traverse(ray: Ray, any_hit: bool) -> Hit {
             let local = firstLeadingBit(triangles);
             triangles &= ~(1u << local);
             hit = bvh_hit_triangle(found.z + local, 0u, ray, hit);
-            if any_hit && hit.triangle != TRACE_NONE && !bvh_is_veil(hit) {
+            if any_hit && hit.triangle != TRACE_NONE && bvh_stops(hit) {
                 return hit;
             }
         }

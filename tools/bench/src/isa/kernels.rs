@@ -6,7 +6,7 @@ use anyhow::{Context as _, Result};
 use vtex_format::{Features, SpecKey, VtexFile};
 use vtex_shaders::{
     BindingSlot, FilterMode, LightKinds, LinkContext, PackOptions, batch_kernel, fragment, link,
-    scene_context, spec_key, with_lights, without_instances,
+    scene_context, spec_key, with_lights, without_cutouts, without_instances,
 };
 
 use crate::subject::FILTERS;
@@ -165,7 +165,8 @@ pub(crate) fn fragment_and_tracer() -> Result<Vec<Kernel>> {
                 group: 1,
                 binding: 0,
             };
-            let context = with_lights(without_instances(scene_context(features, slot)), AREAS);
+            let context = without_cutouts(without_instances(scene_context(features, slot)));
+            let context = with_lights(context, AREAS);
             kernels.push(Kernel {
                 name: format!("path tracer, {name}, {mode}"),
                 wgsl: link("root/render", &context).context("the path tracer does not link")?,
@@ -174,20 +175,25 @@ pub(crate) fn fragment_and_tracer() -> Result<Vec<Kernel>> {
     }
     kernels.push(Kernel {
         name: "ray query".to_owned(),
-        wgsl: link("root/intersect", &without_instances(LinkContext::default()))
-            .context("the ray query does not link")?,
+        wgsl: link(
+            "root/intersect",
+            &without_cutouts(without_instances(LinkContext::default())),
+        )
+        .context("the ray query does not link")?,
     });
     // The fragments first, then the tracer.
     kernels.sort_by_key(|kernel| kernel.name.split(',').next().map(str::to_owned));
     let staged = || LinkContext::default().fill("trace/stack", "state/stack");
-    let with = with_lights(staged(), AREAS);
-    let without = with_lights(without_instances(staged()), AREAS);
+    let with = with_lights(without_cutouts(staged()), AREAS);
+    let cutouts = with_lights(without_instances(staged()), AREAS);
+    let without = without_cutouts(cutouts.clone());
     // Without a word of it a text has all kinds.
-    let all_lights = without_instances(staged());
+    let all_lights = without_cutouts(without_instances(staged()));
     for (stage, context, of) in STAGES
         .map(|stage| (stage, &without, ""))
         .into_iter()
         .chain(WITH_LIGHTS.map(|stage| (stage, &all_lights, ", all lights")))
+        .chain(["hit", "shadow"].map(|stage| (stage, &cutouts, ", cutouts")))
         .chain(WITH_INSTANCES.map(|stage| (stage, &with, ", instances")))
     {
         let text = link(&format!("stage/{stage}"), context);
