@@ -87,7 +87,7 @@ impl BatchSampler {
         // The upload has error scopes of its own: a texture too large for the device is the
         // caller's affair, while a kernel that does not compile is ours or the driver's.
         let texture = checked(device, "texture", || {
-            Uploaded::new(device, queue, &packed.words, &packed.texels)
+            Uploaded::new(device, queue, &packed.words, &packed.texels, options.texels)
         })
         .await?;
         let key = vtex_shaders::spec_key(file, &options.pack);

@@ -45,6 +45,7 @@ mod set;
 mod tracer;
 
 pub use batch::{BatchSampler, Trust};
+pub use device::TexelFormat;
 pub use error::RuntimeError;
 pub use gpu::{ADAPTER_VARIABLE, Gpu};
 #[cfg(any(feature = "zstd", feature = "ruzstd"))]

@@ -4,14 +4,17 @@ use vtex_format::{SpecKey, VtexFile};
 use vtex_shaders::{PackOptions, Packed};
 use wgpu::{BindGroup, BindGroupLayout, Buffer, Device, Queue, Sampler, ShaderStages, TextureView};
 
-use crate::RuntimeError;
 use crate::device::{Uploaded, checked};
+use crate::{RuntimeError, TexelFormat};
 
 /// What a caller may decide at load; the file's own settings hold otherwise.
 #[derive(Clone, Debug, Default)]
 pub struct LoadOptions {
     /// Filter mode and overrides of the file's sampler settings.
     pub pack: PackOptions,
+    /// How texels lie on the device. A [`TextureSet`](crate::TextureSet) has one format for all, in
+    /// [`TextureSetOptions::texels`](crate::TextureSetOptions::texels), and does not read this.
+    pub texels: TexelFormat,
 }
 
 /// Reads files by all cores, each as [`VtexFile::parse`] does, in order. For one or two that is enough by
@@ -83,7 +86,7 @@ impl GpuVtex {
         let packed = vtex_shaders::pack(file, &options.pack);
         // Not `file.spec`: options such as the filter mode need other code.
         let key = vtex_shaders::spec_key(file, &options.pack);
-        Self::upload_packed(device, queue, &packed, &key).await
+        Self::upload_packed(device, queue, &packed, &key, options.texels).await
     }
 
     /// Reads, packs and uploads the bytes of a file. A file of `vtex bake --profile load` carries what
@@ -120,7 +123,7 @@ impl GpuVtex {
         options: &LoadOptions,
     ) -> Result<Self, RuntimeError> {
         let loaded = vtex_shaders::load(bytes, limits, &options.pack)?;
-        Self::upload_packed(device, queue, &loaded.packed, &loaded.key).await
+        Self::upload_packed(device, queue, &loaded.packed, &loaded.key, options.texels).await
     }
 
     async fn upload_packed(
@@ -128,10 +131,11 @@ impl GpuVtex {
         queue: &Queue,
         packed: &Packed,
         key: &SpecKey,
+        format: TexelFormat,
     ) -> Result<Self, RuntimeError> {
         let key = vtex_shaders::kernel_key(key);
         checked(device, "texture", || {
-            let uploaded = Uploaded::new(device, queue, &packed.words, &packed.texels)?;
+            let uploaded = Uploaded::new(device, queue, &packed.words, &packed.texels, format)?;
             let layout = texture_layout(device);
             let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("vtex texture"),

@@ -120,6 +120,7 @@ fn options() -> LoadOptions {
             filter: FilterMode::Point,
             ..PackOptions::default()
         },
+        ..LoadOptions::default()
     }
 }
 

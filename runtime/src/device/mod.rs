@@ -14,4 +14,5 @@ pub(crate) use reply::block_on;
 #[cfg(feature = "tracer")]
 pub(crate) use reply::submitted_work;
 pub(crate) use scope::{checked, compiled};
+pub use texels::TexelFormat;
 pub(crate) use texels::{Uploaded, array_view, page_array, texel_sampler};

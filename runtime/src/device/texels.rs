@@ -1,15 +1,78 @@
 //! A packed texture's bindings: words, texels, sampler.
 
+use std::borrow::Cow;
+
 use vtex_shaders::TexelPages;
 use wgpu::{
     AddressMode, BindGroupEntry, BindGroupLayoutEntry, BindingResource, BindingType, Buffer,
-    BufferBindingType, BufferUsages, Device, FilterMode, Queue, Sampler, SamplerBindingType,
-    SamplerDescriptor, ShaderStages, Texture, TextureFormat, TextureSampleType, TextureUsages,
-    TextureView, TextureViewDescriptor, TextureViewDimension,
+    BufferBindingType, BufferUsages, Device, Features, FilterMode, Queue, Sampler,
+    SamplerBindingType, SamplerDescriptor, ShaderStages, TexelCopyBufferLayout, Texture,
+    TextureFormat, TextureSampleType, TextureUsages, TextureView, TextureViewDescriptor,
+    TextureViewDimension,
 };
 
 use super::buffer::filled_buffer;
 use crate::RuntimeError;
+
+/// How the texels of images lie on the device: mips, patches and embedded images. Outlines are no texels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TexelFormat {
+    /// Four bytes a texel, as files have them.
+    #[default]
+    Rgba8,
+    /// A byte a texel: BC7, made when a texture is loaded, at 25 to 50 million texels a second. Drawings keep
+    /// 45 to 50 dB. A device without [`Features::TEXTURE_COMPRESSION_BC`], which whoever opens it must ask for,
+    /// has `Rgba8` instead.
+    Bc7,
+}
+
+impl TexelFormat {
+    /// What of it the device has.
+    pub(crate) fn on(self, device: &Device) -> Self {
+        match device.features().contains(Features::TEXTURE_COMPRESSION_BC) {
+            true => self,
+            false => Self::Rgba8,
+        }
+    }
+
+    /// Of so many texels.
+    pub(crate) fn bytes(self, texels: u64) -> u64 {
+        match self {
+            Self::Rgba8 => 4 * texels,
+            Self::Bc7 => texels,
+        }
+    }
+
+    /// Pages as a copy to a texture wants them.
+    pub(crate) fn data(self, pages: &TexelPages) -> Cow<'_, [u8]> {
+        match self {
+            Self::Rgba8 => Cow::Borrowed(pages.bytes()),
+            Self::Bc7 => Cow::Owned(pages.blocks()),
+        }
+    }
+
+    /// Where in [`Self::data`] the rows of a page are.
+    pub(crate) fn layout(self, pages: &TexelPages, page: u32) -> TexelCopyBufferLayout {
+        let [width, height] = pages.size();
+        // Blocks of 4 x 4 texels have 16 bytes.
+        let (row, rows) = match self {
+            Self::Rgba8 => (4 * width, height),
+            Self::Bc7 => (4 * width, height / 4),
+        };
+        TexelCopyBufferLayout {
+            offset: u64::from(page) * u64::from(row) * u64::from(rows),
+            bytes_per_row: Some(row),
+            rows_per_image: Some(rows),
+        }
+    }
+
+    fn texture_format(self) -> TextureFormat {
+        match self {
+            Self::Rgba8 => TextureFormat::Rgba8UnormSrgb,
+            Self::Bc7 => TextureFormat::Bc7RgbaUnormSrgb,
+        }
+    }
+}
 
 /// What the evaluator binds at three successive bindings: one packed texture, or several.
 #[derive(Clone, Debug)]
@@ -30,11 +93,12 @@ impl Uploaded {
         queue: &Queue,
         words: &[u32],
         texels: &TexelPages,
+        format: TexelFormat,
     ) -> Result<Self, RuntimeError> {
         let bytes = bytemuck::cast_slice(words);
         Ok(Self {
             words: filled_buffer(device, queue, "vtex words", bytes, BufferUsages::STORAGE)?,
-            texels: texel_pages(device, queue, texels)?,
+            texels: texel_pages(device, queue, texels, format.on(device))?,
             sampler: texel_sampler(device),
         })
     }
@@ -88,20 +152,16 @@ fn texel_pages(
     device: &Device,
     queue: &Queue,
     pages: &TexelPages,
+    format: TexelFormat,
 ) -> Result<TextureView, RuntimeError> {
-    let [width, height] = pages.size();
-    let texture = page_array(device, pages.size(), pages.count())?;
-    let rows = wgpu::TexelCopyBufferLayout {
-        offset: 0,
-        bytes_per_row: Some(4 * width),
-        rows_per_image: Some(height),
-    };
+    let texture = page_array(device, pages.size(), pages.count(), format)?;
     let texels = texture.as_image_copy();
-    queue.write_texture(texels, pages.bytes(), rows, texture.size());
+    let data = format.data(pages);
+    queue.write_texture(texels, &data, format.layout(pages, 0), texture.size());
     Ok(array_view(&texture))
 }
 
-/// Empty pages. To be called in [`checked`](super::checked).
+/// Empty pages of whole blocks. To be called in [`checked`](super::checked).
 ///
 /// # Errors
 /// [`RuntimeError::Limit`] when the device has no texture of that size.
@@ -109,6 +169,7 @@ pub(crate) fn page_array(
     device: &Device,
     [width, height]: [u32; 2],
     count: u32,
+    format: TexelFormat,
 ) -> Result<Texture, RuntimeError> {
     let limits = device.limits();
     let [side, layers] = [
@@ -131,7 +192,7 @@ pub(crate) fn page_array(
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: TextureFormat::Rgba8UnormSrgb,
+        format: format.texture_format(),
         // A set copies its pages into larger ones.
         usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST | TextureUsages::COPY_SRC,
         view_formats: &[],

@@ -10,7 +10,7 @@ use wgpu::{
 use super::space::{Member, Move, Plan, Space};
 use super::words::GROUP_BYTES;
 use crate::RuntimeError;
-use crate::device::{Uploaded, array_view, empty_buffer, page_array};
+use crate::device::{TexelFormat, Uploaded, array_view, empty_buffer, page_array};
 
 /// What a pool binds.
 #[derive(Clone, Debug)]
@@ -31,6 +31,8 @@ pub(super) struct Change<'a> {
 pub(super) struct Fixed {
     pub(super) layout: BindGroupLayout,
     pub(super) sampler: Sampler,
+    /// What the device has of what was asked for.
+    pub(super) texels: TexelFormat,
     /// The words of the texture that shows nothing.
     pub(super) nothing: Vec<u32>,
 }
@@ -47,7 +49,7 @@ impl Memory {
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let uploaded = Uploaded {
             words: words(before, device, &mut encoder, change.plan)?,
-            texels: texels(before, device, &mut encoder, &change.plan.space)?,
+            texels: texels(before, device, &mut encoder, change)?,
             sampler: change.fixed.sampler.clone(),
         };
         let memory = match before {
@@ -83,7 +85,7 @@ impl Memory {
             let texture = &change.textures[index];
             if let Some(member) = space.handles.get(handle) {
                 self.write_words(queue, 4 * space.first_group(member), &texture.words);
-                self.write_rooms(queue, member, &texture.texels);
+                self.write_rooms(queue, member, &texture.texels, change.fixed.texels);
                 if moves.is_none() {
                     self.write_entry(queue, space, handle);
                 }
@@ -102,9 +104,18 @@ impl Memory {
         queue.write_buffer(&self.uploaded.words, 4 * u64::from(first), bytes);
     }
 
-    fn write_rooms(&self, queue: &Queue, member: &Member, texels: &TexelPages) {
+    fn write_rooms(
+        &self,
+        queue: &Queue,
+        member: &Member,
+        texels: &TexelPages,
+        format: TexelFormat,
+    ) {
+        if member.rooms.is_empty() {
+            return;
+        }
+        let data = format.data(texels);
         let [width, height] = texels.size();
-        let page_bytes = 4 * u64::from(width) * u64::from(height);
         for (page, room) in (0..).zip(&member.rooms) {
             let [x, y] = room.place.corner;
             let z = room.place.page;
@@ -112,17 +123,12 @@ impl Memory {
                 origin: Origin3d { x, y, z },
                 ..self.uploaded.texels.texture().as_image_copy()
             };
-            let rows = wgpu::TexelCopyBufferLayout {
-                offset: page * page_bytes,
-                bytes_per_row: Some(4 * width),
-                rows_per_image: Some(height),
-            };
             let extent = Extent3d {
                 width,
                 height,
                 depth_or_array_layers: 1,
             };
-            queue.write_texture(to, texels.bytes(), rows, extent);
+            queue.write_texture(to, &data, format.layout(texels, page), extent);
         }
     }
 }
@@ -152,20 +158,21 @@ fn texels(
     before: Option<&Memory>,
     device: &Device,
     encoder: &mut CommandEncoder,
-    space: &Space,
+    change: &Change<'_>,
 ) -> Result<TextureView, RuntimeError> {
-    // One texel is bound where there is nothing to sample.
-    let size = space.pages.size().map(|side| side.max(1));
+    let (space, format) = (&change.plan.space, change.fixed.texels);
+    // One block is bound where there is nothing to sample.
+    let size = space.pages.size().map(|side| side.max(4));
     let count = space.pages.held().max(1);
     let Some(before) = before else {
-        return Ok(array_view(&page_array(device, size, count)?));
+        return Ok(array_view(&page_array(device, size, count, format)?));
     };
     let view = &before.uploaded.texels;
     let old = view.texture();
     if [old.width(), old.height(), old.depth_or_array_layers()] == [size[0], size[1], count] {
         return Ok(view.clone());
     }
-    let texture = page_array(device, size, count)?;
+    let texture = page_array(device, size, count, format)?;
     let [from, to] = [old, &texture].map(Texture::as_image_copy);
     encoder.copy_texture_to_texture(from, to, old.size());
     Ok(array_view(&texture))

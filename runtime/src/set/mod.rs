@@ -20,7 +20,7 @@ use wgpu::{BindGroup, BindGroupLayout, Buffer, Device, Queue, Sampler, TextureVi
 
 use crate::device::{checked, texel_sampler};
 use crate::load::texture_layout;
-use crate::{LoadOptions, RuntimeError};
+use crate::{LoadOptions, RuntimeError, TexelFormat};
 
 use memory::{Change, Fixed, Memory};
 use pools::{Budget, Made, PoolPlans};
@@ -159,6 +159,7 @@ impl TextureSet {
             let fixed = Fixed {
                 layout: texture_layout(device),
                 sampler: texel_sampler(device),
+                texels: options.texels.on(device),
                 nothing: nothing_words(),
             };
             let bounds = options.bounds(device, fixed.nothing.len());
@@ -252,7 +253,7 @@ impl TextureSet {
     ) -> Result<Vec<TextureHandle>, RuntimeError> {
         let options = &self.options;
         let bounds = options.bounds(&self.device, self.fixed.nothing.len());
-        let budget = Budget::new(options, &bounds, &self.bytes());
+        let budget = Budget::new(options, &bounds, &self.bytes(), self.fixed.texels);
         let made = map_all(textures, options.threads, |texture| {
             budget.spend(|| make(texture, bounds.pages.side))
         });
@@ -407,7 +408,7 @@ impl TextureSet {
 
     /// What it takes on the device.
     pub fn bytes(&self) -> SetBytes {
-        let pools = self.pools.iter().map(Pool::bytes);
+        let pools = self.pools.iter().map(|pool| pool.bytes(self.fixed.texels));
         pools.fold(SetBytes::default(), |sum, pool| SetBytes {
             words: sum.words + pool.words,
             words_held: sum.words_held + pool.words_held,
@@ -436,7 +437,7 @@ impl Pool {
         Ok(Self { space, memory })
     }
 
-    fn bytes(&self) -> SetBytes {
+    fn bytes(&self, format: TexelFormat) -> SetBytes {
         let texture = self.memory.uploaded.texels.texture();
         let [x, y, layers] = [
             texture.width(),
@@ -444,12 +445,11 @@ impl Pool {
             texture.depth_or_array_layers(),
         ]
         .map(u64::from);
-        let [words, texels] = self.space.used_bytes();
         SetBytes {
-            words,
+            words: self.space.used_word_bytes(),
             words_held: self.space.buffer_bytes(),
-            texels,
-            texels_held: 4 * x * y * layers,
+            texels: format.bytes(self.space.pages.texels()),
+            texels_held: format.bytes(x * y * layers),
         }
     }
 }

@@ -8,7 +8,7 @@ use wgpu::Device;
 
 use super::pages::PageLimits;
 use super::space::Bounds;
-use crate::RuntimeError;
+use crate::{RuntimeError, TexelFormat};
 
 /// The table has the first word of a texture as a `u32`.
 const COUNTED_BYTES: u64 = 1 << 34;
@@ -23,6 +23,8 @@ pub struct TextureSetOptions {
     /// [`MAX_PAGE_SIDE`](vtex_shaders::MAX_PAGE_SIDE). A level of an image that is larger makes the pages
     /// larger, all those of its pool. A pool has at most 64: 1 GiB of texels with the default, 2048.
     pub page_side: u32,
+    /// How texels lie on the device.
+    pub texels: TexelFormat,
     /// How many threads pack textures, 0 for one a core. A browser has one.
     pub threads: usize,
     /// How many pools the set may have, from 1 to 32, each with a bind group of its own. The default is 1: one
@@ -42,6 +44,7 @@ impl Default for TextureSetOptions {
         Self {
             features: 0,
             page_side: 2048,
+            texels: TexelFormat::Rgba8,
             threads: 0,
             max_pools: 1,
             pool_bytes: u64::MAX,

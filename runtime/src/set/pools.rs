@@ -5,9 +5,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use vtex_shaders::Packed;
 use vtex_shaders::set::{MAX_POOLS, TextureHandle};
 
-use super::space::{Bounds, Plan, Refused, Space, texel_bytes};
+use super::space::{Bounds, Plan, Refused, Space, texels_of};
 use super::{SetBytes, TextureSetOptions};
-use crate::RuntimeError;
+use crate::{RuntimeError, TexelFormat};
 
 /// What is to be done to pools, each of which is in place or the next after those.
 #[derive(Debug)]
@@ -108,10 +108,16 @@ pub(super) struct Budget {
     used: [u64; 2],
     most: [u64; 2],
     max_pools: u32,
+    texels: TexelFormat,
 }
 
 impl Budget {
-    pub(super) fn new(options: &TextureSetOptions, bounds: &Bounds, used: &SetBytes) -> Self {
+    pub(super) fn new(
+        options: &TextureSetOptions,
+        bounds: &Bounds,
+        used: &SetBytes,
+        texels: TexelFormat,
+    ) -> Self {
         let max_pools = options.most_pools();
         let words = bounds.buffer_bytes.saturating_mul(u64::from(max_pools));
         Self {
@@ -119,6 +125,7 @@ impl Budget {
             used: [used.words, used.words + used.texels],
             most: [words, options.max_bytes],
             max_pools,
+            texels,
         }
     }
 
@@ -132,7 +139,7 @@ impl Budget {
         }
         let made = pack()?;
         let words = made.packed.word_bytes() as u64;
-        let all = words + texel_bytes(&made.packed);
+        let all = words + self.texels.bytes(texels_of(&made.packed));
         for (spent, bytes) in self.spent.iter().zip([words, all]) {
             spent.fetch_add(bytes, Ordering::Relaxed);
         }

@@ -88,10 +88,9 @@ impl Space {
         self.head + member.groups.start
     }
 
-    /// Bytes of its textures: words with the table, and texels.
-    pub(super) fn used_bytes(&self) -> [u64; 2] {
-        let words = self.buffer_bytes() - GROUP_BYTES * u64::from(self.words.free_groups());
-        [words, 4 * self.pages.texels()]
+    /// Bytes of its textures' words, with the table.
+    pub(super) fn used_word_bytes(&self) -> u64 {
+        self.buffer_bytes() - GROUP_BYTES * u64::from(self.words.free_groups())
     }
 
     /// Bytes of the whole buffer.
@@ -258,10 +257,10 @@ fn page_count(texture: &Packed) -> usize {
     }
 }
 
-/// Of the rooms that a texture needs.
-pub(super) fn texel_bytes(texture: &Packed) -> u64 {
+/// In the rooms that a texture needs.
+pub(super) fn texels_of(texture: &Packed) -> u64 {
     let [x, y] = texture.texels.size().map(u64::from);
-    4 * x * y * page_count(texture) as u64
+    x * y * page_count(texture) as u64
 }
 
 /// First word behind so many entries of the table, a multiple of four.

@@ -13,9 +13,9 @@ use super::queues::TextureQueues;
 use super::records::{FrameRecord, MaterialRecord, NONE, SURFACE_DIFFUSE, SURFACE_GLOSSY};
 use super::textures::PackedTextures;
 use super::world::{Cutout, World, index_u32};
-use crate::RuntimeError;
 use crate::device::{Uploaded, checked, filled_buffer};
 use crate::scene::{Camera, Material, Scene, Surface};
+use crate::{RuntimeError, TexelFormat};
 
 /// GGX turns into a mirror below this, and f32 loses its peak.
 pub(super) const MIN_GGX_ALPHA: f32 = 0.001;
@@ -81,7 +81,13 @@ impl SceneBuffers {
                 },
                 light_kinds: lights.kinds,
                 notices: lights.notices,
-                textures: Uploaded::new(device, queue, &packed.words, &packed.texels)?,
+                textures: Uploaded::new(
+                    device,
+                    queue,
+                    &packed.words,
+                    &packed.texels,
+                    TexelFormat::Rgba8,
+                )?,
                 texture_features: packed.features,
                 texture_places: packed.places,
                 queues,

@@ -123,6 +123,7 @@ fn options(filter: FilterMode) -> LoadOptions {
             filter,
             ..PackOptions::default()
         },
+        ..LoadOptions::default()
     }
 }
 

@@ -126,7 +126,7 @@ fn a_level_beyond_the_side_of_a_page() {
     let error = set.add(&file(1), &options(FilterMode::Point)).unwrap_err();
     let message = error.to_string();
     assert!(matches!(error, RuntimeError::Limit(_)), "{message}");
-    for word in ["66", "64 a side", "max_texture_dimension_2d"] {
+    for word in ["68", "64 a side", "max_texture_dimension_2d"] {
         assert!(message.contains(word), "{word}: {message}");
     }
     assert!(set.is_empty());

@@ -12,11 +12,12 @@ mod pools;
 mod queue;
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
-use vtex_format::{Features, VtexFile};
+use vtex_format::{Features, Image, VtexFile};
 use vtex_runtime::{
-    BatchQuery, BatchSampler, FilterMode, Gpu, Limits, LoadOptions, RuntimeError, TextureHandle,
-    TextureQuery, TextureSet, TextureSetOptions, Trust, wgpu,
+    BatchQuery, BatchSampler, FilterMode, Gpu, Limits, LoadOptions, RuntimeError, TexelFormat,
+    TextureHandle, TextureQuery, TextureSet, TextureSetOptions, Trust, wgpu,
 };
 use vtex_shaders::{pack, spec_key};
 use vtex_tests::fixture::random_texture;
@@ -35,6 +36,7 @@ const KINDS: [u32; 3] = [
 const SEVERAL: TextureSetOptions = TextureSetOptions {
     features: 0,
     page_side: 256,
+    texels: TexelFormat::Rgba8,
     threads: 0,
     max_pools: 32,
     pool_bytes: 1 << 20,
@@ -249,6 +251,82 @@ fn bytes_of_files_become_the_same_textures() {
         "{error}"
     );
     assert_eq!(read.len(), 2, "all of them or none");
+}
+
+/// Shows a gradient and an edge, as drawings do, where there was noise.
+fn draw(image: &mut Image) {
+    let level = |level: u32| {
+        let [width, height] = Image::level_size(image.size, level);
+        let texel = |x: u32, y: u32| {
+            let is_edge = 10 * x * height > 7 * y * width + 2 * width * height;
+            let gradient = [200 * x / width, 60 + 100 * y / height, 30];
+            let [r, g, b] = if is_edge { [220; 3] } else { gradient };
+            [r, g, b, 255].map(|channel| u8::try_from(channel).unwrap())
+        };
+        let rows = (0..height).flat_map(|y| (0..width).flat_map(move |x| texel(x, y)));
+        rows.collect::<Vec<u8>>()
+    };
+    let count = u32::try_from(image.mips.len()).unwrap();
+    image.mips = Arc::new((0..count).map(level).collect());
+}
+
+/// Lookups as wide as half a texture and more read texels alone.
+#[test]
+fn texels_in_blocks_take_a_quarter_and_look_the_same() {
+    let Some(gpu) = gpu() else { return };
+    let options = options(FilterMode::Point);
+    let mut files: Vec<VtexFile> = (0..9).map(|seed| file(3 * seed + 1)).collect();
+    files
+        .iter_mut()
+        .flat_map(|file| &mut file.images)
+        .for_each(draw);
+    let filled = |texels: TexelFormat| {
+        let mut set = set(
+            gpu,
+            &TextureSetOptions {
+                texels,
+                page_side: 64,
+                ..TextureSetOptions::default()
+            },
+        );
+        // One by one, so that pages grow and are copied.
+        let handles = files.iter().map(|file| set.add(file, &options).unwrap());
+        let handles: Vec<TextureHandle> = handles.collect();
+        (set, handles)
+    };
+    let (plain, handles) = filled(TexelFormat::Rgba8);
+    let (blocks, same) = filled(TexelFormat::Bc7);
+    assert_eq!(handles, same);
+    let has_blocks = gpu
+        .device
+        .features()
+        .contains(wgpu::Features::TEXTURE_COMPRESSION_BC);
+    let share = if has_blocks { 4 } else { 1 };
+    assert_eq!(plain.bytes().texels, share * blocks.bytes().texels);
+    assert_eq!(
+        plain.bytes().texels_held,
+        share * blocks.bytes().texels_held
+    );
+    let [ours, theirs] = [&plain, &blocks].map(|set| Shader::new(gpu, set));
+    let (mut sum, mut count) = (0.0, 0.0);
+    for &handle in &handles {
+        let mut queries = random_queries(5, 500, 0.3);
+        for query in &mut queries {
+            query.footprint = [0.25, 0.0, 0.0, 0.25];
+        }
+        let queries = of(handle, &queries);
+        let colors = [
+            ours.run(gpu, plain.bind_group(), &queries),
+            theirs.run(gpu, blocks.bind_group(), &queries),
+        ];
+        for (one, other) in colors[0].iter().flatten().zip(colors[1].iter().flatten()) {
+            sum += f64::from(one - other).powi(2);
+            count += 1.0;
+        }
+    }
+    let db = -10.0 * f64::log10(sum / count);
+    assert!(db > 38.0, "{db} dB");
+    assert!(!has_blocks || db < 120.0, "blocks were read: {db} dB");
 }
 
 #[test]

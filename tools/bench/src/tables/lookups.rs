@@ -185,7 +185,10 @@ pub(crate) fn count_table(subjects: &[Subject], effort: Effort) -> Table {
 }
 
 pub(super) fn vtex_kernel(device: &Device, subject: &Subject, pack: PackOptions) -> Result<Kernel> {
-    let options = LoadOptions { pack };
+    let options = LoadOptions {
+        pack,
+        ..LoadOptions::default()
+    };
     let texture = GpuVtex::upload(&device.device, &device.queue, &subject.file, &options)?;
     let bridge = include_str!("../wgsl/vtex.wgsl");
     let resources = [

@@ -86,7 +86,10 @@ fn difference(
     pack: PackOptions,
     queries: &[BatchQuery],
 ) -> Result<Difference> {
-    let options = LoadOptions { pack };
+    let options = LoadOptions {
+        pack,
+        ..LoadOptions::default()
+    };
     let (own, queue) = (&device.device, &device.queue);
     let gpu = BatchSampler::new(own, queue, &subject.file, &options, Trust::Regenerate)?;
     let answers = gpu.sample(queries)?;

@@ -77,7 +77,10 @@ impl Shooter {
     /// # Errors
     /// When the texture does not fit the GPU.
     pub fn on_gpu(gpu: &Gpu, file: &VtexFile, pack: PackOptions) -> Result<Self, TruthError> {
-        let options = LoadOptions { pack };
+        let options = LoadOptions {
+            pack,
+            ..LoadOptions::default()
+        };
         let trust = Trust::default();
         let sampler = BatchSampler::new(&gpu.device, &gpu.queue, file, &options, trust)?;
         Ok(Self::Gpu {
