@@ -1,6 +1,6 @@
 //! What the tracer's material model has of a material of the asset.
 
-use vtex_runtime::{Material as TraceMaterial, Surface};
+use vtex_runtime::{Coat, Dielectric, Glass, Material as TraceMaterial, Surface};
 
 use crate::document::material::{AlphaMode, Ior, Material};
 use crate::error::Outcome;
@@ -74,11 +74,85 @@ pub(crate) fn traced(
         texture: made.map(|made| made.index),
         backing: (is_vector && material.alpha_mode == AlphaMode::Opaque)
             .then(|| [0, 1, 2].map(|c| PAPER[c] * [r, g, b][c])),
-        surface: Surface::Glossy {
-            metallic: unit(metallic),
-            roughness: unit(roughness),
+        surface: match material.extensions.unlit {
+            Some(_) => Surface::Unlit,
+            None => Surface::Glossy {
+                metallic: unit(metallic),
+                roughness: unit(roughness),
+            },
         },
+        dielectric: dielectric(material),
+        coat: coat(material),
+        glass: glass(material),
         emission,
+    })
+}
+
+/// Textures of extensions that are shown by their factors.
+const BY_FACTOR: [&str; 7] = [
+    "transmissionTexture",
+    "thicknessTexture",
+    "specularTexture",
+    "specularColorTexture",
+    "clearcoatTexture",
+    "clearcoatRoughnessTexture",
+    "clearcoatNormalTexture",
+];
+
+/// Index of refraction; 0 in glTF asks for what reflects all light.
+fn index(ior: Ior) -> f32 {
+    match ior.ior {
+        ior if ior >= 1.0 => ior.min(100.0),
+        _ => 1.5,
+    }
+}
+
+fn dielectric(material: &Material) -> Dielectric {
+    let more = &material.extensions;
+    let index = index(more.ior);
+    let plain = match more.ior.ior {
+        0.0 => 1.0,
+        _ => ((index - 1.0) / (index + 1.0)).powi(2),
+    };
+    let (factor, color) = match &more.specular {
+        Some(specular) => (
+            unit(specular.specular_factor),
+            specular.specular_color_factor,
+        ),
+        None => (1.0, [1.0; 3]),
+    };
+    Dielectric {
+        straight_on: color.map(|c| unit(plain * radiance(c)) * factor),
+        grazing: factor,
+    }
+}
+
+fn coat(material: &Material) -> Option<Coat> {
+    let coat = material.extensions.clearcoat.as_ref()?;
+    Some(Coat {
+        strength: unit(coat.clearcoat_factor),
+        roughness: unit(coat.clearcoat_roughness_factor),
+    })
+}
+
+fn glass(material: &Material) -> Option<Glass> {
+    let more = &material.extensions;
+    let transmission = more.transmission.as_ref()?;
+    let body = more
+        .volume
+        .as_ref()
+        .filter(|volume| volume.thickness_factor > 0.0);
+    Some(Glass {
+        share: unit(transmission.transmission_factor),
+        index: index(more.ior),
+        // Beer: what is left at the distance is the colour. Where that is black, nearly nothing is.
+        absorption: body.map(|volume| {
+            let distance = volume
+                .attenuation_distance
+                .filter(|&distance| distance > 0.0);
+            let left = volume.attenuation_color.map(|c| unit(c).max(1.0e-6));
+            left.map(|c| distance.map_or(0.0, |distance| radiance(-c.ln() / distance)))
+        }),
     })
 }
 
@@ -99,17 +173,14 @@ fn not_shown(material: &Material, glows: bool) -> Vec<&'static str> {
             "occlusionTexture (paths find occlusion themselves)",
             material.occlusion_texture.is_some(),
         ),
-        ("KHR_materials_unlit (shown lit)", more.unlit.is_some()),
-        ("KHR_materials_ior", more.ior != Ior::default()),
-        ("KHR_materials_transmission", more.transmission.is_some()),
-        ("KHR_materials_volume", more.volume.is_some()),
-        ("KHR_materials_specular", more.specular.is_some()),
         ("KHR_materials_sheen", more.sheen.is_some()),
-        ("KHR_materials_clearcoat", more.clearcoat.is_some()),
     ];
+    let textures = material.slots().into_iter().map(|(name, _)| name);
+    let textures = textures.filter(|name| BY_FACTOR.contains(name));
     all.into_iter()
         .filter(|(_, is_there)| *is_there)
         .map(|(name, _)| name)
+        .chain(textures)
         .collect()
 }
 

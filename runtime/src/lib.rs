@@ -54,8 +54,8 @@ pub use load::{GpuVtex, LoadOptions};
 pub use queue::{LookupQueue, QueueBuffers, QueueSampler};
 #[cfg(feature = "tracer")]
 pub use scene::{
-    Camera, Environment, Instance, MAX_TRIANGLES, Material, Mesh, PunctualKind, PunctualLight,
-    RectLight, Scene, Sky, Surface,
+    Camera, Coat, Dielectric, Environment, Glass, Instance, MAX_TRIANGLES, Material, Mesh,
+    PunctualKind, PunctualLight, RectLight, Scene, Sky, Surface,
 };
 pub use set::{PoolBindings, SetBytes, TextureSet, TextureSetOptions};
 #[cfg(feature = "tracer")]

@@ -46,8 +46,8 @@ pub use packed::{Packed, PackedSet};
 pub use precompile::{PrecompileError, dictionary_keys, shader_blob, spirv};
 pub use spec::{kernel_key, spec_key};
 pub use specialize::{
-    BATCH_WORKGROUP, BindingSlot, LightKinds, batch_dispatch, batch_kernel, fragment,
-    scene_context, scene_evaluator, with_lights, without_cutouts, without_instances,
+    BATCH_WORKGROUP, BindingSlot, LayerKinds, LightKinds, batch_dispatch, batch_kernel, fragment,
+    scene_context, scene_evaluator, with_layers, with_lights, without_cutouts, without_instances,
 };
 pub use texels::{MAX_PAGE_SIDE, Place, TexelPages, page_bytes};
 

@@ -48,6 +48,8 @@ sources! {
     "trace/bvh",
     "trace/camera",
     "trace/cone",
+    "trace/layer/glass",
+    "trace/layer/kinds",
     "trace/layout",
     "trace/light/environment",
     "trace/light/far",

@@ -77,6 +77,24 @@ pub fn without_cutouts(context: LinkContext) -> LinkContext {
     context.fill("trace/world/cutout", "trace/world/cutout_none")
 }
 
+/// Layers that a scene's surfaces have; see [`with_layers`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LayerKinds {
+    /// Clear coats.
+    pub coats: bool,
+    /// Surfaces that light goes through by refraction.
+    pub glass: bool,
+}
+
+/// `context` for a path tracer with code for these layers; without this, for all of them.
+pub fn with_layers(context: LinkContext, kinds: LayerKinds) -> LinkContext {
+    let text = format!(
+        "const LAYERS_HAVE_COATS: bool = {};\nconst LAYERS_HAVE_GLASS: bool = {};\n",
+        kinds.coats, kinds.glass
+    );
+    context.define("trace/layer/kinds", text)
+}
+
 /// Kinds of light that a scene has; see [`with_lights`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LightKinds {

@@ -221,7 +221,7 @@ fn what_is_not_shown_is_kept_and_named() {
             "KHR_materials_emissive_strength": {"emissiveStrength": 10},
             "KHR_materials_ior": {"ior": 1.3}, "KHR_materials_transmission": {"transmissionFactor": 1},
             "KHR_materials_volume": {"thicknessFactor": 0.1, "attenuationColor": [1, 0.5, 0.5]},
-            "KHR_materials_specular": {"specularFactor": 0.5}, "KHR_materials_unlit": {},
+            "KHR_materials_specular": {"specularFactor": 0.5},
             "KHR_materials_sheen": {"sheenColorFactor": [1, 1, 1]},
             "KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatTexture": slot},
         },
@@ -239,13 +239,8 @@ fn what_is_not_shown_is_kept_and_named() {
         "normalTexture",
         "occlusionTexture",
         "emissiveTexture",
-        "unlit",
-        "ior",
-        "transmission",
-        "volume",
-        "specular",
         "sheen",
-        "clearcoat",
+        "clearcoatTexture",
     ] {
         assert!(warning.contains(name), "no {name} in {warning}");
     }
@@ -264,6 +259,48 @@ fn what_is_not_shown_is_kept_and_named() {
     else {
         panic!("{material:?}");
     };
+    let straight_on = 0.5 * (0.3_f32 / 2.3).powi(2);
+    let off = material
+        .dielectric
+        .straight_on
+        .map(|c| (c - straight_on).abs());
+    assert!(off.iter().all(|&off| off < 1e-6), "{material:?}");
+    assert_eq!(material.dielectric.grazing.to_bits(), 0.5_f32.to_bits());
+    assert_eq!(material.coat.unwrap().strength.to_bits(), 1.0_f32.to_bits());
+    let glass = material.glass.unwrap();
+    // Without a distance nothing is absorbed, and the thickness makes a body of it.
+    assert_eq!((glass.index, glass.absorption), (1.3, Some([0.0; 3])));
     assert!((metallic - 1.0).abs() < 1e-3 && (roughness - 128.0 / 255.0).abs() < 1e-3);
     assert!((material.emission[2] - 10.0).abs() < 1e-3 && material.emission[0] < 1e-3);
+}
+
+#[test]
+fn bodies_absorb_what_their_colour_says() {
+    let mut builder = Builder::triangle();
+    builder.push(
+        "materials",
+        json!({"extensions": {
+            "KHR_materials_transmission": {"transmissionFactor": 0.5},
+            "KHR_materials_volume": {
+                "thicknessFactor": 1, "attenuationDistance": 2, "attenuationColor": [1, 0.5, 0],
+            },
+        }}),
+    );
+    builder.push(
+        "materials",
+        json!({"extensions": {"KHR_materials_unlit": {}, "KHR_materials_transmission": {}}}),
+    );
+    builder.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+    let glass = builder.read().unwrap().scene.materials[0].glass.unwrap();
+    let [red, green, blue] = glass.absorption.unwrap();
+    assert!(
+        red == 0.0 && (green - 0.5 * 2.0_f32.ln()).abs() < 1e-6,
+        "{glass:?}"
+    );
+    assert!(blue.is_finite() && blue > 3.0, "{glass:?}");
+    assert_eq!((glass.share, glass.index), (0.5, 1.5));
+    builder.json["meshes"][0]["primitives"][0]["material"] = json!(1);
+    let material = builder.read().unwrap().scene.materials[0];
+    assert_eq!(material.surface, Surface::Unlit);
+    assert_eq!(material.glass.unwrap().absorption, None, "a thin wall");
 }

@@ -5,6 +5,7 @@
 
 mod camera;
 mod light;
+mod material;
 mod mesh;
 mod plane;
 
@@ -12,6 +13,7 @@ use vtex_format::VtexFile;
 
 pub use camera::Camera;
 pub use light::{Environment, PunctualKind, PunctualLight, RectLight, Sky};
+pub use material::{Coat, Dielectric, Glass, Material, Surface};
 pub use mesh::{MAX_TRIANGLES, Mesh};
 pub use plane::{canvas_aspect, plane, plane_camera};
 
@@ -54,44 +56,6 @@ pub struct Instance {
     pub world_from_object: [[f32; 3]; 4],
 }
 
-/// How a surface looks. Both sides look alike.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Material {
-    /// Reflectance in \[0, 1\], linear; multiplies the texture.
-    pub base_color: [f32; 3],
-    /// Index into [`Scene::textures`].
-    pub texture: Option<usize>,
-    /// What lies under the texture's transparent parts: `None` lets that share of the rays go
-    /// straight through, a colour (linear, in \[0, 1\]) makes the surface solid.
-    pub backing: Option<[f32; 3]>,
-    /// How light scatters.
-    pub surface: Surface,
-    /// Radiance of its own, linear, on both sides. Paths aim at meshes that glow as they do at
-    /// [`Scene::lights`], unless they have a see-through texture: those are found by scattering alone.
-    pub emission: [f32; 3],
-}
-
-impl Material {
-    /// Whether it may let rays through.
-    pub(crate) fn is_veil(&self) -> bool {
-        self.texture.is_some() && self.backing.is_none()
-    }
-}
-
-/// How light scatters at a surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Surface {
-    /// Lambert.
-    Diffuse,
-    /// glTF's metallic-roughness model: GGX over Lambert.
-    Glossy {
-        /// 0 is a dielectric of index 1.5 over the base colour, 1 a metal of the base colour.
-        metallic: f32,
-        /// Perceptual roughness in \[0, 1\]; GGX's alpha is its square, at least 0.001.
-        roughness: f32,
-    },
-}
-
 impl Instance {
     /// A [`Instance::world_from_object`] that leaves a mesh where it is.
     pub const IDENTITY: [[f32; 3]; 4] = [
@@ -100,18 +64,6 @@ impl Instance {
         [0.0, 0.0, 1.0],
         [0.0, 0.0, 0.0],
     ];
-}
-
-impl Default for Material {
-    fn default() -> Self {
-        Self {
-            base_color: [1.0; 3],
-            texture: None,
-            backing: None,
-            surface: Surface::Diffuse,
-            emission: [0.0; 3],
-        }
-    }
 }
 
 impl Scene {
@@ -127,15 +79,11 @@ impl Scene {
             instances_ok,
             "instance: unknown mesh or material, or a matrix that is not finite",
         )?;
-        let materials_ok = self.materials.iter().all(|material| {
-            let (metallic, roughness) = material.surface.parameters();
-            material.base_color.iter().all(|&c| unit(c))
-                && material.backing.iter().flatten().all(|&c| unit(c))
-                && unit(metallic)
-                && unit(roughness)
-                && material.emission.iter().all(|&c| radiance(c))
-                && material.texture.is_none_or(|t| t < self.textures.len())
-        });
+        let textures = self.textures.len();
+        let materials_ok = self
+            .materials
+            .iter()
+            .all(|material| material.is_valid(textures));
         require(
             materials_ok,
             "material: a number out of its range or an unknown texture",
@@ -153,20 +101,6 @@ impl Scene {
             self.environment.iter().all(Environment::is_valid),
             "environment: bad radiance, or not as many texels as it has columns and rows",
         )
-    }
-}
-
-impl Surface {
-    /// Metallic and roughness; Lambert has neither.
-    pub(crate) fn parameters(self) -> (f32, f32) {
-        match self {
-            // Not read by the shader, but must pass the checks and make a finite record.
-            Self::Diffuse => (0.0, 1.0),
-            Self::Glossy {
-                metallic,
-                roughness,
-            } => (metallic, roughness),
-        }
     }
 }
 

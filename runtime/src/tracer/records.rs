@@ -9,6 +9,8 @@ pub(crate) const NONE: u32 = u32::MAX;
 pub(crate) const SURFACE_DIFFUSE: u32 = 0;
 /// [`MaterialRecord::surface`]: GGX over Lambert.
 pub(crate) const SURFACE_GLOSSY: u32 = 1;
+/// [`MaterialRecord::surface`]: its colour alone.
+pub(crate) const SURFACE_UNLIT: u32 = 2;
 
 /// What intersection reads of a triangle: `edge1 = v0 - v1`, `edge2 = v2 - v0`; or an instance, whose
 /// place the bits of `v0[3]` say.
@@ -37,6 +39,8 @@ pub(crate) struct MaterialRecord {
     pub(crate) base_color: [f32; 4],
     pub(crate) emission: [f32; 4],
     pub(crate) backing: [f32; 4],
+    pub(crate) dielectric: [f32; 4],
+    pub(crate) glass: [f32; 4],
     pub(crate) metallic: f32,
     pub(crate) ggx_alpha: f32,
     pub(crate) surface: u32,
@@ -45,6 +49,10 @@ pub(crate) struct MaterialRecord {
     pub(crate) texture_queue: u32,
     pub(crate) is_panel: u32,
     pub(crate) cutout: u32,
+    pub(crate) transmission: f32,
+    pub(crate) coat: f32,
+    pub(crate) coat_alpha: f32,
+    pub(crate) reserved: f32,
 }
 
 #[repr(C)]
@@ -132,8 +140,9 @@ mod tests {
             TriangleRecord { v0, edge1, edge2 }
             AttributeRecord { normal0_u, normal1_u, normal2_u, v_material }
             MaterialRecord {
-                base_color, emission, backing, metallic, ggx_alpha, surface, texture_word,
-                light_density, texture_queue, is_panel, cutout,
+                base_color, emission, backing, dielectric, glass, metallic, ggx_alpha, surface, texture_word,
+                light_density, texture_queue, is_panel, cutout, transmission, coat,
+                coat_alpha, reserved,
             }
             FrameRecord {
                 camera_position, camera_right, camera_up, camera_forward, sky_zenith, sky_horizon,
@@ -164,6 +173,7 @@ mod tests {
             ),
             ("SURFACE_DIFFUSE", SURFACE_DIFFUSE as usize),
             ("SURFACE_GLOSSY", SURFACE_GLOSSY as usize),
+            ("SURFACE_UNLIT", SURFACE_UNLIT as usize),
         ] {
             let line = format!("const {name}: u32 = {value}u;");
             assert!(wgsl.contains(&line), "no `{line}`");

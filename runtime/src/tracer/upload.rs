@@ -3,14 +3,16 @@
 use std::collections::BTreeMap;
 
 use glam::Vec3;
-use vtex_shaders::{LightKinds, LinkContext};
+use vtex_shaders::{LayerKinds, LightKinds, LinkContext};
 use wgpu::{BindingResource, Buffer, BufferUsages, Device, Queue};
 
 use super::TraceOptions;
 use super::albedo;
 use super::lights::{LIGHT_GROUPS, Lights, PanoramaTexture};
 use super::queues::TextureQueues;
-use super::records::{FrameRecord, MaterialRecord, NONE, SURFACE_DIFFUSE, SURFACE_GLOSSY};
+use super::records::{
+    FrameRecord, MaterialRecord, NONE, SURFACE_DIFFUSE, SURFACE_GLOSSY, SURFACE_UNLIT,
+};
 use super::textures::PackedTextures;
 use super::world::{Cutout, World, index_u32};
 use crate::device::{Uploaded, checked, filled_buffer};
@@ -31,6 +33,7 @@ pub(super) struct SceneBuffers {
     materials: Buffer,
     panorama: PanoramaTexture,
     light_kinds: LightKinds,
+    layer_kinds: LayerKinds,
     notices: Vec<String>,
     textures: Uploaded,
     texture_features: u32,
@@ -80,6 +83,10 @@ impl SceneBuffers {
                     None => PanoramaTexture::new(device, queue, [1; 2], &[0]),
                 },
                 light_kinds: lights.kinds,
+                layer_kinds: LayerKinds {
+                    coats: scene.materials.iter().any(|m| m.coat.is_some()),
+                    glass: scene.materials.iter().any(|m| m.glass.is_some()),
+                },
                 notices: lights.notices,
                 textures: Uploaded::new(
                     device,
@@ -125,7 +132,8 @@ impl SceneBuffers {
             true => context,
             false => vtex_shaders::without_cutouts(context),
         };
-        vtex_shaders::with_lights(self.world.levels(context), self.light_kinds)
+        let context = vtex_shaders::with_lights(self.world.levels(context), self.light_kinds);
+        vtex_shaders::with_layers(context, self.layer_kinds)
     }
 
     /// Whether traversal reads textures' cells.
@@ -222,6 +230,21 @@ fn material_record(material: &Material, lookups: &[[u32; 2]]) -> MaterialRecord 
     let lookup = material.texture.map(|index| lookups[index]);
     let [texture_word, texture_queue] = lookup.unwrap_or([NONE, 0]);
     let (metallic, roughness) = material.surface.parameters();
+    let alpha = |roughness: f32| (roughness * roughness).max(MIN_GGX_ALPHA);
+    let [r, g, b] = material.dielectric.straight_on;
+    let coat = material.coat.unwrap_or_default();
+    let (transmission, glass) = match material.glass {
+        Some(glass) => {
+            let [x, y, z] = glass.absorption.unwrap_or_default();
+            let index = if glass.absorption.is_some() {
+                glass.index
+            } else {
+                -glass.index
+            };
+            (glass.share * (1.0 - metallic), [x, y, z, index])
+        }
+        None => (0.0, [0.0; 4]),
+    };
     MaterialRecord {
         base_color: color(material.base_color),
         emission: color(material.emission),
@@ -229,17 +252,24 @@ fn material_record(material: &Material, lookups: &[[u32; 2]]) -> MaterialRecord 
             Some([r, g, b]) => [r, g, b, 1.0],
             None => [0.0; 4],
         },
+        dielectric: [r, g, b, material.dielectric.grazing],
+        glass,
         metallic,
-        ggx_alpha: (roughness * roughness).max(MIN_GGX_ALPHA),
+        ggx_alpha: alpha(roughness),
         surface: match material.surface {
             Surface::Diffuse => SURFACE_DIFFUSE,
             Surface::Glossy { .. } => SURFACE_GLOSSY,
+            Surface::Unlit => SURFACE_UNLIT,
         },
         texture_word,
         light_density: 0.0,
         texture_queue,
         is_panel: 0,
         cutout: 0,
+        transmission,
+        coat: coat.strength,
+        coat_alpha: alpha(coat.roughness),
+        reserved: 0.0,
     }
 }
 

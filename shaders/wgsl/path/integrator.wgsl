@@ -63,17 +63,24 @@ fn path_trace(first_ray: Ray, first_cone: Cone, stream: ptr<function, u32>) -> P
             }
             continue;
         }
-        path.color = path_emission(path, material, point);
+        path_absorb(&path, material, point, hit.t);
+        path.color = path_emission(path, material, point, color.base_color);
         if path_ends(path, material) {
             break;
         }
-        let lobes = path_lobes(path, material, point, color.base_color);
+        let lobes = path_lobes(path, material, point, color.base_color, stream);
         let shadow = path_shadow_ray(path, point, lobes, stream);
         if shadow.left > 0.0 {
             integrator_light(&path, shadow);
         }
         // The shadow ray may have passed the last see-through surface.
-        if !path_scatter(&path, point, lobes, stream) || path.veils > PATH_MAX_VEILS {
+        var goes_on = false;
+        if LAYERS_HAVE_GLASS && lobes.is_glass {
+            goes_on = path_refract(&path, point, lobes, material, color.base_color, stream);
+        } else {
+            goes_on = path_scatter(&path, point, lobes, stream);
+        }
+        if !goes_on || path.veils > PATH_MAX_VEILS {
             break;
         }
     }

@@ -4,6 +4,8 @@
 //!use trace/surface
 //!use trace/material
 //!use trace/bsdf
+//!use trace/layer/kinds
+//!use trace/layer/glass
 //!use trace/light/far
 //!use trace/light/sample
 //!use trace/rng
@@ -100,8 +102,18 @@ fn path_pass(path: ptr<function, PathState>, point: SurfacePoint) -> bool {
     return (*path).veils <= PATH_MAX_VEILS;
 }
 
-// What the surface's own light gives.
-fn path_emission(path: PathState, material: MaterialRecord, point: SurfacePoint) -> vec4f {
+// Takes what a body absorbed on the way to its other side.
+fn path_absorb(path: ptr<function, PathState>, material: MaterialRecord, point: SurfacePoint, distance: f32) {
+    if LAYERS_HAVE_GLASS && material.glass.w > 0.0 && !point.front {
+        (*path).throughput *= exp(-material.glass.xyz * distance);
+    }
+}
+
+// What the surface's own light gives, and its colour where it shows that alone.
+fn path_emission(path: PathState, material: MaterialRecord, point: SurfacePoint, base_color: vec3f) -> vec4f {
+    if material.surface == SURFACE_UNLIT {
+        return path_add(path, material.emission.xyz + base_color);
+    }
     if material.is_panel == 1u && !point.front {
         return path.color;
     }
@@ -114,28 +126,53 @@ fn path_emission(path: PathState, material: MaterialRecord, point: SurfacePoint)
     return path_add(path, emission);
 }
 
-// How a surface scatters what comes along the path, seen from its shading normal.
+// How a surface scatters what comes along the path, seen from its shading normal: one of its layers.
 struct PathLobes {
     frame: mat3x3f,
     out_local: vec3f,
     bsdf: Bsdf,
+    // What the layer's light is multiplied by, for the chance that it was chosen.
+    scale: f32,
+    // Instead of all that: light is reflected by glass or goes through.
+    is_glass: bool,
 }
 
-fn path_lobes(path: PathState, material: MaterialRecord, point: SurfacePoint, base_color: vec3f) -> PathLobes {
+// A layer is chosen as often as it reflects or passes what comes to it, so that one at a time is enough.
+fn path_lobes(
+    path: PathState,
+    material: MaterialRecord,
+    point: SurfacePoint,
+    base_color: vec3f,
+    stream: ptr<function, u32>,
+) -> PathLobes {
     let frame = bsdf_frame(point.shading_normal);
     let out_local = -path.ray.direction * frame;
-    return PathLobes(frame, out_local, bsdf_new(material, base_color, out_local));
+    if LAYERS_HAVE_COATS && material.coat > 0.0 {
+        let coat = bsdf_coat(material.coat_alpha, out_local);
+        if rng_next(stream) < material.coat * coat.reflected {
+            return PathLobes(frame, out_local, coat.bsdf, 1.0 / coat.reflected, false);
+        }
+    }
+    let bsdf = bsdf_new(material, base_color, out_local);
+    var is_glass = false;
+    if LAYERS_HAVE_GLASS && material.transmission > 0.0 {
+        is_glass = rng_next(stream) < material.transmission;
+    }
+    return PathLobes(frame, out_local, bsdf, 1.0, is_glass);
 }
 
 // Whether a path ends at a surface whose own light it has.
 fn path_ends(path: PathState, material: MaterialRecord) -> bool {
-    return material.is_panel == 1u || path.scatterings >= trace_frame.max_bounces;
+    return material.is_panel == 1u || material.surface == SURFACE_UNLIT || path.scatterings >= trace_frame.max_bounces;
 }
 
 // A ray to a point on a light, if that can light the surface.
 fn path_shadow_ray(path: PathState, point: SurfacePoint, lobes: PathLobes, stream: ptr<function, u32>) -> ShadowRay {
     var shadow: ShadowRay;
     if trace_frame.light_count == 0u || trace_frame.light_sampling != LIGHT_SAMPLING_MIS {
+        return shadow;
+    }
+    if LAYERS_HAVE_GLASS && lobes.is_glass {
         return shadow;
     }
     shadow.origin = ray_offset(point.position, point.geometric_normal);
@@ -154,7 +191,7 @@ fn path_shadow_ray(path: PathState, point: SurfacePoint, lobes: PathLobes, strea
     // Stop short of the light, which is itself in the BVH.
     shadow.distance = light.distance * 0.9999;
     shadow.left = shadow.distance;
-    shadow.radiance = path.throughput * value * light.estimate * weight;
+    shadow.radiance = path.throughput * value * light.estimate * (weight * lobes.scale);
     shadow.share = 1.0;
     shadow.cone = path.cone;
     shadow.scatterings = path.scatterings + 1u;
@@ -192,12 +229,38 @@ fn path_scatter(
     if scattered.pdf <= 0.0 || dot(direction, point.geometric_normal) <= 0.0 {
         return false;
     }
-    (*path).throughput *= scattered.weight;
-    (*path).scatterings += 1u;
+    (*path).throughput *= scattered.weight * lobes.scale;
     (*path).scatter_pdf = scattered.pdf;
-    (*path).travelled = 0.0;
     (*path).cone = cone_scatter((*path).cone, scattered.pdf, trace_frame.footprint_scale);
     (*path).ray = ray_new(ray_offset(point.position, point.geometric_normal), direction, RAY_INFINITY);
+    return path_goes_on(path, stream);
+}
+
+// Sends the path on by glass, whose light nothing aims at: what it meets next counts in full.
+fn path_refract(
+    path: ptr<function, PathState>,
+    point: SurfacePoint,
+    lobes: PathLobes,
+    material: MaterialRecord,
+    base_color: vec3f,
+    stream: ptr<function, u32>,
+) -> bool {
+    let glass = glass_sample(lobes.out_local, material, base_color, point.front, stream);
+    let direction = lobes.frame * glass.direction;
+    let side = select(point.geometric_normal, -point.geometric_normal, glass.passes);
+    if all(glass.weight <= vec3f(0.0)) || dot(direction, side) <= 0.0 {
+        return false;
+    }
+    (*path).throughput *= glass.weight;
+    (*path).scatter_pdf = LIGHT_PDF_OF_POINTS;
+    (*path).ray = ray_new(ray_offset(point.position, side), direction, RAY_INFINITY);
+    return path_goes_on(path, stream);
+}
+
+// Counts a scattering; false where the path ends by chance.
+fn path_goes_on(path: ptr<function, PathState>, stream: ptr<function, u32>) -> bool {
+    (*path).scatterings += 1u;
+    (*path).travelled = 0.0;
     if (*path).scatterings > PATH_ROULETTE_AFTER {
         let left = (*path).throughput;
         let survive = min(max(left.x, max(left.y, left.z)), 0.95);

@@ -28,12 +28,13 @@ fn stage_shade(@builtin(global_invocation_id) id: vec3u) {
         }
         return;
     }
+    path_absorb(&state, material, point, hit.t);
     // What is done is stored at once, not kept in registers while the next is computed.
-    state_set_float(path, STATE_COLOR, path_emission(state, material, point));
+    state_set_float(path, STATE_COLOR, path_emission(state, material, point, color.base_color));
     if path_ends(state, material) {
         return;
     }
-    let lobes = path_lobes(state, material, point, color.base_color);
+    let lobes = path_lobes(state, material, point, color.base_color, &stream);
     let shadow = path_shadow_ray(state, point, lobes, &stream);
     let is_lit = shadow.left > 0.0;
     if is_lit {
@@ -42,7 +43,13 @@ fn stage_shade(@builtin(global_invocation_id) id: vec3u) {
     // Read again, for the same reason.
     var way = state_path(path);
     path_arrive(&way, hit.t);
-    let goes_on = path_scatter(&way, point, lobes, &stream);
+    path_absorb(&way, material, point, hit.t);
+    var goes_on = false;
+    if LAYERS_HAVE_GLASS && lobes.is_glass {
+        goes_on = path_refract(&way, point, lobes, material, color.base_color, &stream);
+    } else {
+        goes_on = path_scatter(&way, point, lobes, &stream);
+    }
     state_set_way(path, way, stream);
     if is_lit {
         list_push_shadow(path | select(ENTRY_LAST, 0u, goes_on));

@@ -5,6 +5,8 @@ const TRACE_NONE: u32 = 0xffffffffu;
 
 const SURFACE_DIFFUSE: u32 = 0u;
 const SURFACE_GLOSSY: u32 = 1u;
+// Shows its colour whatever light falls on it.
+const SURFACE_UNLIT: u32 = 2u;
 
 // Lights are found by chance and by aiming at them, weighted (multiple importance sampling).
 const LIGHT_SAMPLING_MIS: u32 = 0u;
@@ -33,6 +35,10 @@ struct MaterialRecord {
     emission: vec4f,
     // Under the texture's transparent parts; w = 0 for none, which lets rays through.
     backing: vec4f,
+    // Reflectance of what is not metal, seen straight on, and at grazing views.
+    dielectric: vec4f,
+    // What a body behind it absorbs in a unit of length; its index, negative for a thin wall.
+    glass: vec4f,
     metallic: f32,
     // GGX's width parameter, the square of perceptual roughness.
     ggx_alpha: f32,
@@ -47,6 +53,12 @@ struct MaterialRecord {
     is_panel: u32,
     // Where its texture's cutout lies among the nodes, 0 for none: see trace/world/cutout.
     cutout: u32,
+    // Share of the light that is not reflected by metal and goes through.
+    transmission: f32,
+    // Strength of a clear coat, and its width parameter of GGX.
+    coat: f32,
+    coat_alpha: f32,
+    reserved: f32,
 }
 
 // What stays the same over a picture.

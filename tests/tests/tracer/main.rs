@@ -9,6 +9,7 @@
 
 mod awaited;
 mod batch;
+mod layers;
 mod light;
 mod staged;
 

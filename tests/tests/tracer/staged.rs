@@ -6,6 +6,7 @@ use vtex_runtime::{
     Scene, Sky, TraceOptions, Tracer, Trust, scene,
 };
 
+use super::layers::all_layers;
 use super::light::all_lights;
 use super::{RED, cells_file, furnace, glossy, gpu, lit_scene, lying_at, mean, quarters};
 
@@ -185,6 +186,7 @@ fn cases() -> Vec<(&'static str, Scene, TraceOptions, [u32; 2])> {
             [96, 64],
         ),
         ("see-through surfaces", veils(), options, [64, 48]),
+        ("coats and glass", all_layers(), options, [64, 48]),
         (
             "a panorama, points and glow",
             all_lights(),

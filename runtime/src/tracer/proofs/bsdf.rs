@@ -7,7 +7,7 @@ use crate::{Camera, Scene, Sky};
 
 const IMPORTS: &[&str] = &["trace/bsdf", "trace/rng"];
 
-/// The surface that `proof_input` describes: metallic, alpha, cosine of the view, base colour.
+/// The surface that `proof_input` describes: metallic (negative for Lambert, 2 for a coat), alpha, cosine of the view, base colour.
 const SUBJECT: &str = "
 fn subject_out() -> vec3f {
     let cosine = proof_input[2];
@@ -20,8 +20,12 @@ fn subject_bsdf() -> Bsdf {
     material.metallic = proof_input[0];
     material.ggx_alpha = proof_input[1];
     material.surface = SURFACE_GLOSSY;
+    material.dielectric = vec4f(0.04, 0.04, 0.04, 1.0);
     if proof_input[0] < 0.0 {
         material.surface = SURFACE_DIFFUSE;
+    }
+    if proof_input[0] > 1.0 {
+        return bsdf_coat(proof_input[1], subject_out()).bsdf;
     }
     return bsdf_new(material, vec3f(proof_input[3]), subject_out());
 }
@@ -92,6 +96,8 @@ fn lobes_are_sampled_by_their_densities() {
         (0.4, 0.5, 0.9),
         (1.0, 0.25, 0.9),
         (1.0, 1.0, 1.0),
+        // A coat.
+        (2.0, 0.3, 1.0),
     ] {
         for cosine in COSINES {
             let name = format!("metallic {metallic}, roughness {roughness}, cosine {cosine}");

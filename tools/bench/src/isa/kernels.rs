@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use anyhow::{Context as _, Result};
 use vtex_format::{Features, SpecKey, VtexFile};
 use vtex_shaders::{
-    BindingSlot, FilterMode, LightKinds, LinkContext, PackOptions, batch_kernel, fragment, link,
-    scene_context, spec_key, with_lights, without_cutouts, without_instances,
+    BindingSlot, FilterMode, LayerKinds, LightKinds, LinkContext, PackOptions, batch_kernel,
+    fragment, link, scene_context, spec_key, with_layers, with_lights, without_cutouts,
+    without_instances,
 };
 
 use crate::subject::FILTERS;
@@ -166,7 +167,7 @@ pub(crate) fn fragment_and_tracer() -> Result<Vec<Kernel>> {
                 binding: 0,
             };
             let context = without_cutouts(without_instances(scene_context(features, slot)));
-            let context = with_lights(context, AREAS);
+            let context = with_layers(with_lights(context, AREAS), LayerKinds::default());
             kernels.push(Kernel {
                 name: format!("path tracer, {name}, {mode}"),
                 wgsl: link("root/render", &context).context("the path tracer does not link")?,
@@ -184,15 +185,18 @@ pub(crate) fn fragment_and_tracer() -> Result<Vec<Kernel>> {
     // The fragments first, then the tracer.
     kernels.sort_by_key(|kernel| kernel.name.split(',').next().map(str::to_owned));
     let staged = || LinkContext::default().fill("trace/stack", "state/stack");
-    let with = with_lights(without_cutouts(staged()), AREAS);
-    let cutouts = with_lights(without_instances(staged()), AREAS);
+    let base = || with_layers(staged(), LayerKinds::default());
+    let with = with_lights(without_cutouts(base()), AREAS);
+    let cutouts = with_lights(without_instances(base()), AREAS);
     let without = without_cutouts(cutouts.clone());
     // Without a word of it a text has all kinds.
-    let all_lights = without_cutouts(without_instances(staged()));
+    let all_lights = without_cutouts(without_instances(base()));
+    let layers = with_lights(without_cutouts(without_instances(staged())), AREAS);
     for (stage, context, of) in STAGES
         .map(|stage| (stage, &without, ""))
         .into_iter()
         .chain(WITH_LIGHTS.map(|stage| (stage, &all_lights, ", all lights")))
+        .chain([("shade", &layers, ", coats and glass")])
         .chain(["hit", "shadow"].map(|stage| (stage, &cutouts, ", cutouts")))
         .chain(WITH_INSTANCES.map(|stage| (stage, &with, ", instances")))
     {

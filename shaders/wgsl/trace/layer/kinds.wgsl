@@ -1,0 +1,5 @@
+// Which layers of surfaces a text has code for. The host replaces this module by one that says what the
+// scene has.
+
+const LAYERS_HAVE_COATS: bool = true;
+const LAYERS_HAVE_GLASS: bool = true;
