@@ -82,6 +82,8 @@ pub(crate) fn read(
             false => normals,
         },
         uvs: vec![[0.0; 2]; count],
+        // The caller has them among the other attributes.
+        colors: Vec::new(),
         positions,
     };
     Ok(Some((mended(mesh, place, warnings), attributes)))

@@ -227,8 +227,12 @@ impl Built {
                 Some(_) if material.is_none() || uv_set == 0 => (),
                 _ => warnings.push(format!("{place}: it has no TEXCOORD_{uv_set} to show")),
             }
-            if !attributes.colors.is_empty() {
-                warnings.push(format!("{place}: COLOR_0 is kept and not shown yet"));
+            let shade = |[r, g, b, _]: &[f32; 4]| [*r, *g, *b].map(|c| c.clamp(0.0, 1.0));
+            shape.colors = attributes.colors.iter().map(shade).collect();
+            if attributes.colors.iter().any(|[.., alpha]| *alpha < 1.0) {
+                warnings.push(format!(
+                    "{place}: the alpha of COLOR_0 is kept and not shown"
+                ));
             }
             self.meshes.push(shape);
             self.primitives.push(PrimitiveInfo {

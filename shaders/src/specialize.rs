@@ -84,13 +84,16 @@ pub struct LayerKinds {
     pub coats: bool,
     /// Surfaces that light goes through by refraction.
     pub glass: bool,
+    /// Colours of vertices.
+    pub colors: bool,
 }
 
 /// `context` for a path tracer with code for these layers; without this, for all of them.
 pub fn with_layers(context: LinkContext, kinds: LayerKinds) -> LinkContext {
     let text = format!(
-        "const LAYERS_HAVE_COATS: bool = {};\nconst LAYERS_HAVE_GLASS: bool = {};\n",
-        kinds.coats, kinds.glass
+        "const LAYERS_HAVE_COATS: bool = {};\nconst LAYERS_HAVE_GLASS: bool = {};\n\
+         const LAYERS_HAVE_COLORS: bool = {};\n",
+        kinds.coats, kinds.glass, kinds.colors
     );
     context.define("trace/layer/kinds", text)
 }

@@ -24,6 +24,8 @@ pub struct Mesh {
     pub normals: Vec<[f32; 3]>,
     /// Texture coordinates, one a vertex.
     pub uvs: Vec<[f32; 2]>,
+    /// Colours that multiply the material's, linear, in \[0, 1\], one a vertex; empty for white.
+    pub colors: Vec<[f32; 3]>,
     /// Three vertex indices a triangle.
     pub triangles: Vec<[u32; 3]>,
 }
@@ -160,18 +162,20 @@ impl Mesh {
     /// Checks that the lists agree and every number is finite.
     pub(crate) fn check(&self) -> Result<(), RuntimeError> {
         let count = self.positions.len();
-        let agree = self.normals.len() == count && self.uvs.len() == count;
+        let has_colors = self.colors.is_empty() || self.colors.len() == count;
+        let agree = self.normals.len() == count && self.uvs.len() == count && has_colors;
         let known = |index: &u32| (*index as usize) < count;
         let vectors = self.positions.iter().chain(&self.normals).flatten();
         let finite = vectors
             .chain(self.uvs.iter().flatten())
             .all(|number| number.is_finite());
-        if agree && finite && self.triangles.iter().flatten().all(known) {
+        let colors = self.colors.iter().flatten().all(|&c| super::unit(c));
+        if agree && finite && colors && self.triangles.iter().flatten().all(known) {
             Ok(())
         } else {
             Err(RuntimeError::Parameter(
-                "mesh: lists of different length, an index past the end, or a number that is \
-                 not finite"
+                "mesh: lists of different length, an index past the end, a number that is not \
+                 finite or a colour out of range"
                     .to_owned(),
             ))
         }

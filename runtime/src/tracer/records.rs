@@ -83,9 +83,9 @@ pub(crate) struct FrameRecord {
     pub(crate) environment_columns: u32,
     pub(crate) environment_rows: u32,
     pub(crate) albedo_first: u32,
+    pub(crate) colors_first: u32,
     pub(crate) reserved0: u32,
     pub(crate) reserved1: u32,
-    pub(crate) reserved2: u32,
 }
 
 #[repr(C)]
@@ -149,8 +149,8 @@ mod tests {
                 sky_ground, environment_turn, film_width, film_height, light_count, triangle_count, seed,
                 max_bounces, light_sampling, transparent_background, camera_slope,
                 footprint_scale, indirect_clamp, reach, light_first, environment_first,
-                environment_columns, environment_rows, albedo_first, reserved0, reserved1,
-                reserved2,
+                environment_columns, environment_rows, albedo_first, colors_first,
+                reserved0, reserved1,
             }
             PassRecord { row_first, row_count, sample_first, sample_count }
             RayRecord { origin_t_max, direction }

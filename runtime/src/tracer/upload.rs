@@ -62,9 +62,12 @@ impl SceneBuffers {
             .collect();
         let mut lights = Lights::new(scene);
         let mut materials = material_records(scene, &lookups, &lights.densities);
-        let frame_record = frame_record(scene, size, options, &world, &lights)?;
+        let mut frame_record = frame_record(scene, size, options, &world, &lights)?;
         world.nodes.append(&mut lights.groups);
         world.nodes.extend(albedo::table());
+        frame_record.colors_first = index_u32(world.nodes.len());
+        let has_colors = !world.colors.is_empty();
+        world.nodes.append(&mut world.colors);
         let has_cutouts = add_cutouts(scene, &mut world, &mut materials);
         checked(device, "scene", || {
             let filled =
@@ -86,6 +89,7 @@ impl SceneBuffers {
                 layer_kinds: LayerKinds {
                     coats: scene.materials.iter().any(|m| m.coat.is_some()),
                     glass: scene.materials.iter().any(|m| m.glass.is_some()),
+                    colors: has_colors,
                 },
                 notices: lights.notices,
                 textures: Uploaded::new(
@@ -316,9 +320,9 @@ fn frame_record(
         environment_columns: grid[0],
         environment_rows: grid[1],
         albedo_first: light_first + index_u32(lights.groups.len()),
+        colors_first: 0,
         reserved0: 0,
         reserved1: 0,
-        reserved2: 0,
     };
     set_camera(&mut frame, &scene.camera)?;
     Ok(frame)

@@ -56,7 +56,10 @@ fn path_trace(first_ray: Ray, first_cone: Cone, stream: ptr<function, u32>) -> P
         path_arrive(&path, hit.t);
         let point = surface_at(path.ray, hit, path.cone);
         let material = trace_materials[point.material];
-        let color = integrator_color(material, point);
+        var color = integrator_color(material, point);
+        if LAYERS_HAVE_COLORS {
+            color.base_color *= surface_color(hit);
+        }
         if color.alpha < 1.0 && rng_next(stream) >= color.alpha {
             if !path_pass(&path, point) {
                 break;

@@ -19,7 +19,10 @@ fn stage_shade(@builtin(global_invocation_id) id: vec3u) {
     path_arrive(&state, hit.t);
     let point = surface_at(state.ray, hit, state.cone);
     let material = trace_materials[point.material];
-    let color = colors_at(path, material);
+    var color = colors_at(path, material);
+    if LAYERS_HAVE_COLORS {
+        color.base_color *= surface_color(hit);
+    }
     if color.alpha < 1.0 && rng_next(&stream) >= color.alpha {
         // The count of the state that is local here starts at none.
         if path_pass(&state, point) && colors_pass(path) {

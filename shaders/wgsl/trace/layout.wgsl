@@ -96,9 +96,10 @@ struct FrameRecord {
     environment_rows: u32,
     // Where the table of trace/albedo lies among the nodes.
     albedo_first: u32,
+    // Where the colours of vertices lie among the nodes, a group for each triangle.
+    colors_first: u32,
     reserved0: u32,
     reserved1: u32,
-    reserved2: u32,
 }
 
 // Which part of the work one dispatch does.

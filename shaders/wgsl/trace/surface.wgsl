@@ -19,6 +19,16 @@ struct SurfacePoint {
     front: bool,
 }
 
+// What the colours of vertices make of white: ten bits a channel, of the root.
+fn surface_color(hit: Hit) -> vec3f {
+    let corners = trace_nodes[trace_frame.colors_first + hit.triangle];
+    let r = vec3f(corners.xyz & vec3u(1023u));
+    let g = vec3f((corners.xyz >> vec3u(10u)) & vec3u(1023u));
+    let b = vec3f((corners.xyz >> vec3u(20u)) & vec3u(1023u));
+    let weights = vec3f(1.0 - hit.barycentric.x - hit.barycentric.y, hit.barycentric) / (1023.0 * 1023.0);
+    return vec3f(dot(weights, r * r), dot(weights, g * g), dot(weights, b * b));
+}
+
 // Rays nearly along a surface have footprints without end; they stop at this many cone widths.
 const SURFACE_MIN_COSINE: f32 = 1.0 / 64.0;
 

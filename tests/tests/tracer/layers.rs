@@ -31,7 +31,10 @@ fn coated(roughness: f32, base: Material) -> Material {
 /// All layers in the room of all lights.
 pub(super) fn all_layers() -> Scene {
     let mut scene = all_lights();
-    scene.meshes.push(Mesh::sphere(0.3, 32, 1.0));
+    let mut ball = Mesh::sphere(0.3, 32, 1.0);
+    let shade = |[x, y, _]: &[f32; 3]| [0.5 + x, 0.5 + y, 0.8];
+    ball.colors = ball.positions.iter().map(shade).collect();
+    scene.meshes.push(ball);
     let ball = scene.meshes.len() - 1;
     let tinted = Material {
         base_color: [0.9, 0.95, 0.7],
@@ -147,6 +150,38 @@ fn a_colour_without_light_is_what_it_is() {
     };
     for (value, wanted) in mean(&film).into_iter().zip([0.2, 0.4, 0.9]) {
         assert!((value - wanted).abs() < 1.0e-6, "{value}");
+    }
+}
+
+#[test]
+fn colours_of_vertices_multiply_the_materials() {
+    let grey = Material {
+        base_color: [0.5; 3],
+        ..Material::default()
+    };
+    let mut scene = furnace(Mesh::plane(40.0, 40.0), grey);
+    scene.camera.position = [0.0, 0.0, 4.0];
+    scene.camera.fov_y_rad = 0.01;
+    // The middle of an edge between both.
+    scene.meshes[0].colors = vec![[0.2, 0.8, 0.0], [1.0; 3], [0.6, 0.0, 0.1], [1.0; 3]];
+    // Instances of a mesh that is stored once show the same.
+    let mut instanced = scene.clone();
+    let ball = Mesh::sphere(0.5, 130, 1.0);
+    instanced.meshes[0] = Mesh {
+        colors: vec![[0.4, 0.4, 0.05]; ball.positions.len()],
+        ..ball
+    };
+    instanced.instances.push(Instance {
+        world_from_object: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [9.0; 3]],
+        ..instanced.instances[0]
+    });
+    for scene in [scene, instanced] {
+        let Some(film) = render(&scene, [8, 8], 4, &TraceOptions::default()) else {
+            return;
+        };
+        for (value, wanted) in mean(&film).into_iter().zip([0.2, 0.2, 0.025]) {
+            assert!((value - wanted).abs() < 0.003, "{value}, {wanted}");
+        }
     }
 }
 

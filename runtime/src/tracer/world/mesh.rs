@@ -15,11 +15,26 @@ use crate::tracer::records::{AttributeRecord, TriangleRecord};
 /// mesh: as much as a ray may be off after it changed spaces.
 const BOX_SLACK: f32 = 1.0e-5;
 
+/// The colours of a triangle without any.
+pub(super) const WHITE: [u32; 4] = [0x3fff_ffff; 4];
+
+/// Ten bits a channel, of the root.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "roots of numbers from 0 to 1"
+)]
+fn color(color: [f32; 3]) -> u32 {
+    let [r, g, b] = color.map(|c| (c.sqrt() * 1023.0).round() as u32);
+    r | g << 10 | b << 20
+}
+
 /// A triangle as it is stored.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placed {
     pub(super) triangle: TriangleRecord,
     pub(super) attributes: AttributeRecord,
+    pub(super) colors: [u32; 4],
     pub(super) source: u32,
 }
 
@@ -28,6 +43,7 @@ impl Default for Placed {
         Self {
             triangle: bytemuck::Zeroable::zeroed(),
             attributes: bytemuck::Zeroable::zeroed(),
+            colors: WHITE,
             source: 0,
         }
     }
@@ -47,13 +63,14 @@ impl MeshTree {
         let mut triangles = Vec::with_capacity(mesh.triangles.len());
         // The material is the instance's.
         let placed = placed(mesh, &Instance::IDENTITY, 0);
-        for (source, (triangle, attributes)) in placed.enumerate() {
+        for (source, (triangle, attributes, colors)) in placed.enumerate() {
             if bvh::is_traceable(&triangle) {
                 kept.push(triangle);
                 triangles.push(Placed {
                     // So is whether rays go through it.
                     triangle: triangle_record(&triangle, false),
                     attributes,
+                    colors,
                     source: index_u32(source),
                 });
             }
@@ -108,7 +125,7 @@ pub(super) fn placed(
     mesh: &Mesh,
     world_from_object: &[[f32; 3]; 4],
     material: u32,
-) -> impl Iterator<Item = (Triangle, AttributeRecord)> {
+) -> impl Iterator<Item = (Triangle, AttributeRecord, [u32; 4])> {
     let to_world = Affine3A::from_cols_array_2d(world_from_object);
     // Inverse transpose: normals stay at right angles to surfaces that are stretched. A matrix
     // without an inverse gives no numbers, and those become normals of length 0.
@@ -126,7 +143,14 @@ pub(super) fn placed(
         let uvs = corners.map(|i| mesh.uvs[i]);
         let normal_u = [0, 1, 2].map(|k| normals[k].extend(uvs[k][0]));
         let attributes = attribute_record(normal_u, uvs.map(|[_, v]| v), material);
-        (triangle, attributes)
+        let colors = match mesh.colors.is_empty() {
+            true => WHITE,
+            false => {
+                let [a, b, c] = corners.map(|i| color(mesh.colors[i]));
+                [a, b, c, 0]
+            }
+        };
+        (triangle, attributes, colors)
     })
 }
 

@@ -23,7 +23,7 @@ use crate::RuntimeError;
 use crate::scene::{Instance, MAX_TRIANGLES, RectLight, Scene};
 pub(super) use cutout::Cutout;
 use instance::{Placement, RECORD_GROUPS, record};
-use mesh::{MeshTree, Placed, triangle_record};
+use mesh::{MeshTree, Placed, WHITE, triangle_record};
 
 /// Deepest path through both levels that the shader's stack holds; see `STACK_SIZE` there.
 const MAX_DEPTH: usize = 32;
@@ -43,6 +43,8 @@ pub(super) struct World {
     pub(super) nodes: Vec<[u32; 4]>,
     pub(super) triangles: Vec<TriangleRecord>,
     pub(super) attributes: Vec<AttributeRecord>,
+    /// Of each triangle the colours of its vertices; empty where all are white.
+    pub(super) colors: Vec<[u32; 4]>,
     /// Of the scene, lights included and each instance counted in full.
     pub(super) triangle_count: u32,
     /// Those among them that no ray can meet and that are left out.
@@ -126,6 +128,9 @@ impl World {
                 depth + deepest
             )));
         }
+        if scene.meshes.iter().all(|mesh| mesh.colors.is_empty()) {
+            self.colors = Vec::new();
+        }
         self.first_record = index_u32(self.nodes.len());
         for (at, entry) in entries.iter().enumerate() {
             let Entry::Instance {
@@ -162,6 +167,7 @@ impl World {
     fn push_triangle(&mut self, placed: Placed) {
         self.triangles.push(placed.triangle);
         self.attributes.push(placed.attributes);
+        self.colors.push(placed.colors);
         self.sources.push(placed.source);
     }
 
@@ -244,8 +250,9 @@ impl FirstLevel {
         let mesh = &scene.meshes[instance.mesh];
         let is_veil = scene.materials[instance.material].is_veil();
         let material = index_u32(instance.material);
-        for (triangle, attributes) in mesh::placed(mesh, &instance.world_from_object, material) {
-            self.push(&triangle, is_veil, attributes);
+        let placed = mesh::placed(mesh, &instance.world_from_object, material);
+        for (triangle, attributes, colors) in placed {
+            self.push(&triangle, is_veil, attributes, colors);
         }
     }
 
@@ -260,11 +267,17 @@ impl FirstLevel {
             [at(0.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)],
         ] {
             let attributes = mesh::attribute_record([normal.extend(0.0); 3], [0.0; 3], material);
-            self.push(&bvh::triangle(corners), false, attributes);
+            self.push(&bvh::triangle(corners), false, attributes, WHITE);
         }
     }
 
-    fn push(&mut self, triangle: &Triangle, is_veil: bool, attributes: AttributeRecord) {
+    fn push(
+        &mut self,
+        triangle: &Triangle,
+        is_veil: bool,
+        attributes: AttributeRecord,
+        colors: [u32; 4],
+    ) {
         let source = self.triangle_count;
         self.triangle_count += 1;
         if !bvh::is_traceable(triangle) {
@@ -275,6 +288,7 @@ impl FirstLevel {
         self.entries.push(Entry::Placed(Placed {
             triangle: triangle_record(triangle, is_veil),
             attributes,
+            colors,
             source,
         }));
     }

@@ -3,3 +3,5 @@
 
 const LAYERS_HAVE_COATS: bool = true;
 const LAYERS_HAVE_GLASS: bool = true;
+// Colours of vertices.
+const LAYERS_HAVE_COLORS: bool = true;
