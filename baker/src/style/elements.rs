@@ -52,3 +52,18 @@ pub(super) fn px(text: &str) -> Option<f64> {
         value => units.quantity(value)?.length_px(0.0),
     }
 }
+
+/// Whether a node is a `foreignObject` whose content is to be drawn: within a `switch`, what stands
+/// after it is its picture.
+pub(super) fn is_label(node: Node<'_, '_>) -> bool {
+    if !is_svg(node) || node.tag_name().name() != "foreignObject" {
+        return false;
+    }
+    let is_switch = |outer: &Node<'_, '_>| outer.tag_name().name() == "switch";
+    let has_other = || {
+        let mut after = node.next_siblings().skip(1);
+        after.any(|other| is_svg(other) && other.tag_name().name() != "foreignObject")
+    };
+    let in_switch = node.parent_element().is_some_and(|outer| is_switch(&outer));
+    !(in_switch && has_other()) && node.children().any(|child| child.is_element())
+}

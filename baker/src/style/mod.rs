@@ -10,6 +10,7 @@ mod boxes;
 mod cascade;
 mod compute;
 mod elements;
+mod html;
 mod needed;
 mod output;
 mod property;
@@ -21,6 +22,8 @@ mod syntax;
 mod tests;
 mod value;
 mod variables;
+
+pub(crate) use html::Faces;
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -45,6 +48,7 @@ const MAX_DEPTH: usize = 1024;
 /// [`BakeError::Limit`] for styles that ask for too much work.
 pub(crate) fn resolve(
     document: &Document<'_>,
+    fonts: &Faces<'_>,
     warnings: &Warnings,
 ) -> Result<Option<String>, BakeError> {
     let root = document.root_element();
@@ -83,6 +87,7 @@ pub(crate) fn resolve(
         filters: &filters,
     };
     let mut styled = computer.document(document)?;
+    let labels = html::labels(document, &mut computer, &styled, fonts)?;
     let mut boxes = boxes::Boxes {
         styled: &mut styled,
         root_font_size_px: computer.root_font_size_px,
@@ -95,7 +100,12 @@ pub(crate) fn resolve(
     }
     let definitions = std::mem::take(&mut boxes.definitions);
     report.finish(warnings);
-    Ok(Some(output::write(document, &styled, &definitions)))
+    Ok(Some(output::write(
+        document,
+        &styled,
+        &definitions,
+        &labels,
+    )))
 }
 
 fn is_deep(document: &Document<'_>) -> bool {

@@ -58,6 +58,9 @@ pub(super) fn is_needed(
         if !super::elements::is_svg(node) {
             continue;
         }
+        if super::elements::is_label(node) {
+            return Ok(true);
+        }
         for attribute in node.attributes().filter(|a| a.namespace().is_none()) {
             let value = attribute.value();
             let is_beyond = match attribute.name() {

@@ -1,5 +1,7 @@
 //! The document with attributes in place of its styles, as text.
 
+use std::collections::BTreeMap;
+
 use usvg::roxmltree::{Document, Node, NodeType};
 
 use super::compute::Styled;
@@ -17,11 +19,13 @@ const IN_STYLE: [&str; 4] = [
     "image-rendering",
 ];
 
-/// Writes `document`. `definitions` are added at the end of the root.
+/// Writes `document`. `definitions` are added at the end of the root; `labels` are what stands for
+/// nodes of HTML labels.
 pub(super) fn write(
     document: &Document<'_>,
     styled: &[Option<Styled>],
     definitions: &[String],
+    labels: &BTreeMap<usize, String>,
 ) -> String {
     let mut out = String::new();
     let attribute_of = |node: Node<'_, '_>, name: &str| {
@@ -36,8 +40,17 @@ pub(super) fn write(
     while let Some(node) = next {
         let is_style = super::elements::is_svg(node) && node.tag_name().name() == "style";
         let shadow = light_shadow(node, &attribute_of);
-        let is_left_out = is_style || shadow.is_some();
+        let label = labels.get(&node.id().get_usize());
+        let is_left_out = is_style || shadow.is_some() || label.is_some();
         out += &shadow.unwrap_or_default();
+        if let Some(label) = label {
+            self::label(
+                node,
+                styled.get(node.id().get_usize()).and_then(Option::as_ref),
+                label,
+                &mut out,
+            );
+        }
         if !is_left_out {
             open(
                 node,
@@ -131,6 +144,20 @@ fn open(node: Node<'_, '_>, styled: Option<&Styled>, out: &mut String) {
     if outer.is_none() {
         attribute("xmlns:xlink", XLINK, out);
     }
+    attributes(node, styled, out);
+    out.push('>');
+}
+
+/// Writes the attributes of `node`, with those that it gets.
+fn attributes(node: Node<'_, '_>, styled: Option<&Styled>, out: &mut String) {
+    let is_label = node.tag_name().name() == "foreignObject";
+    let is_dropped = |name: &str| {
+        is_label
+            && matches!(
+                name,
+                "x" | "y" | "width" | "height" | "requiredExtensions" | "requiredFeatures"
+            )
+    };
     for found in node.attributes() {
         let prefix = match found.namespace() {
             None => "",
@@ -144,7 +171,7 @@ fn open(node: Node<'_, '_>, styled: Option<&Styled>, out: &mut String) {
         let is_replaced = styled.is_some_and(|styled| {
             matches!(name, "style" | "class") || styled.attributes.contains_key(name)
         });
-        if !(is_replaced && prefix.is_empty()) {
+        if !((is_replaced || is_dropped(name)) && prefix.is_empty()) {
             attribute(&format!("{prefix}{name}"), found.value(), out);
         }
     }
@@ -152,14 +179,14 @@ fn open(node: Node<'_, '_>, styled: Option<&Styled>, out: &mut String) {
     for (name, value) in styled.iter().flat_map(|styled| &styled.attributes) {
         match value {
             Some(value) if IN_STYLE.contains(&&**name) => style += &format!("{name}:{value};"),
-            Some(value) => attribute(name, value, out),
+            Some(value) if !is_dropped(name) => attribute(name, value, out),
+            Some(_) => {}
             None => {}
         }
     }
     if !style.is_empty() {
         attribute("style", &style, out);
     }
-    out.push('>');
 }
 
 /// The namespace to write. Elements without one are SVG to usvg, but not where that is written.
@@ -168,6 +195,16 @@ fn namespace_of<'a>(node: Node<'a, '_>) -> &'a str {
         true => SVG,
         false => node.tag_name().namespace().unwrap_or(""),
     }
+}
+
+/// A group in place of a `foreignObject`.
+fn label(node: Node<'_, '_>, styled: Option<&Styled>, content: &str, out: &mut String) {
+    out.push_str("<g");
+    attribute("xmlns", SVG, out);
+    attributes(node, styled, out);
+    out.push('>');
+    out.push_str(content);
+    out.push_str("</g>");
 }
 
 fn close(node: Node<'_, '_>, definitions: &[String], out: &mut String) {
@@ -184,7 +221,7 @@ fn close(node: Node<'_, '_>, definitions: &[String], out: &mut String) {
     out.push('>');
 }
 
-fn attribute(name: &str, value: &str, out: &mut String) {
+pub(super) fn attribute(name: &str, value: &str, out: &mut String) {
     out.push(' ');
     out.push_str(name);
     out.push_str("=\"");
@@ -192,7 +229,7 @@ fn attribute(name: &str, value: &str, out: &mut String) {
     out.push('"');
 }
 
-fn escape(text: &str, out: &mut String) {
+pub(super) fn escape(text: &str, out: &mut String) {
     for c in text.chars() {
         match c {
             '<' => out.push_str("&lt;"),

@@ -248,12 +248,12 @@ fn font(value: &Rc<[Value]>) -> Vec<Longhand> {
     let Some((size, after)) = rest.split_first() else {
         return Vec::new();
     };
-    let family = match trim(after) {
+    let (height, family) = match trim(after) {
         [Value::Delim('/'), rest @ ..] => match trim(rest) {
-            [_, rest @ ..] => trim(rest),
+            [height, rest @ ..] => (height.clone(), trim(rest)),
             [] => return Vec::new(),
         },
-        rest => rest,
+        rest => (Value::Ident("normal".into()), rest),
     };
     if words(family).is_empty() {
         return Vec::new();
@@ -265,5 +265,7 @@ fn font(value: &Rc<[Value]>) -> Vec<Longhand> {
         .collect();
     found.push(("font-size".into(), Rc::from([size.clone()])));
     found.push(("font-family".into(), family.into()));
+    // Of HTML alone; no element of SVG has lines.
+    found.push(("line-height".into(), Rc::from([height])));
     found
 }

@@ -1,12 +1,25 @@
 //! Styles in, attributes out.
 
+use std::sync::Arc;
+
 use usvg::roxmltree::{Document, Node};
 
-use super::resolve;
 use crate::warning::Warnings;
 
+/// [`super::resolve`] without fonts.
+pub(super) fn resolve(
+    document: &Document<'_>,
+    warnings: &Warnings,
+) -> Result<Option<String>, crate::BakeError> {
+    let fonts = super::Faces {
+        database: &Arc::default(),
+        select: usvg::FontResolver::default_font_selector,
+    };
+    super::resolve(document, &fonts, warnings)
+}
+
 /// `content` in a drawing of 200 by 200.
-fn framed(content: &str) -> String {
+pub(super) fn framed(content: &str) -> String {
     format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 200 200'>{content}</svg>")
 }
 

@@ -21,11 +21,11 @@ fn drawings_look_like_their_plain_ones() {
     for name in names() {
         let styled = std::fs::read(folder().join(format!("{name}.svg"))).unwrap();
         let plain = std::fs::read(folder().join(format!("{name}.plain.svg"))).unwrap();
-        let text = vtex_baker::styled_text(&styled).unwrap();
+        let text = vtex_baker::styled_text(&styled, &fonts::library()).unwrap();
         if text.as_bytes() == styled {
             wrong.push(format!("{name}: the stage has nothing to do"));
         }
-        let same = vtex_baker::styled_text(&plain).unwrap();
+        let same = vtex_baker::styled_text(&plain, &fonts::library()).unwrap();
         if same.as_bytes() != plain {
             wrong.push(format!("{name}: the plain drawing is not plain"));
         }

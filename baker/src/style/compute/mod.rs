@@ -9,7 +9,7 @@ use std::rc::Rc;
 use color::DynamicColor;
 use usvg::roxmltree::{Document, Node};
 
-use super::cascade::{Cascade, Entry};
+use super::cascade::{Cascade, Entry, Origin};
 use super::needed::Filters;
 use super::report::Report;
 use super::syntax::{self, Value};
@@ -39,10 +39,10 @@ pub(super) struct Styled {
 /// What children take from their parent without an attribute saying so.
 #[derive(Clone, Debug)]
 pub(super) struct Inherited {
-    custom: Rc<Custom>,
+    pub(super) custom: Rc<Custom>,
     pub(super) font_size_px: f64,
-    current: DynamicColor,
-    is_dark: bool,
+    pub(super) current: DynamicColor,
+    pub(super) is_dark: bool,
     /// Width and height of the nearest viewport in user units.
     pub(super) viewport: [f64; 2],
 }
@@ -58,6 +58,9 @@ impl Default for Inherited {
         }
     }
 }
+
+/// Custom properties, and the declarations of each property.
+pub(super) type Declared = (Rc<Custom>, BTreeMap<Rc<str>, Vec<Entry>>);
 
 /// Computes all elements of a document; the list has a place for each node.
 pub(super) struct Computer<'a> {
@@ -110,7 +113,8 @@ impl Computer<'_> {
             },
         };
         let entries = self.cascade.entries(node)?;
-        let (custom, longhands) = self.longhands(entries, &outer)?;
+        let (custom, longhands) =
+            self.longhands(entries, &outer, &|name| property::kind(name).is_some())?;
         let mut styled = Styled {
             inherited: Inherited {
                 custom,
@@ -140,13 +144,24 @@ impl Computer<'_> {
         Ok(styled)
     }
 
-    /// Custom properties, and the declarations of each property, the strongest last.
-    #[expect(clippy::type_complexity, reason = "two results of one pass")]
+    /// As [`Self::longhands`], of an element of HTML, whose attributes are no properties.
+    pub(super) fn html(
+        &mut self,
+        node: Node<'_, '_>,
+        outer: &Inherited,
+    ) -> Result<Declared, BakeError> {
+        let mut entries = self.cascade.entries(node)?;
+        entries.retain(|entry| entry.weight.origin != Origin::Attribute);
+        self.longhands(entries, outer, &|_| true)
+    }
+
+    /// Custom properties, and the declarations of each property that is `wanted`, the strongest last.
     fn longhands(
         &mut self,
         entries: Vec<Entry>,
         outer: &Inherited,
-    ) -> Result<(Rc<Custom>, BTreeMap<Rc<str>, Vec<Entry>>), BakeError> {
+        wanted: &dyn Fn(&str) -> bool,
+    ) -> Result<Declared, BakeError> {
         let (own, others): (Vec<_>, Vec<_>) = entries
             .into_iter()
             .partition(|entry| entry.name.starts_with("--"));
@@ -167,7 +182,7 @@ impl Computer<'_> {
             };
             let original = Rc::clone(&entry.value);
             for (name, value) in shorthand::expand(&entry.name, &value) {
-                if property::kind(&name).is_some() {
+                if wanted(&name) {
                     let entry = Entry {
                         name: Rc::clone(&name),
                         value,

@@ -11,7 +11,9 @@ mod text;
 
 use std::borrow::Cow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 
+use usvg::fontdb::Database;
 use usvg::roxmltree::{Document, ParsingOptions};
 
 use crate::{config::Resources, error::BakeError, style, warning::Warnings};
@@ -52,17 +54,28 @@ pub(crate) fn parse(
 }
 
 /// The text that a bake of an SVG or SVGZ hands to usvg: its own, or, where it has styles that usvg
-/// does not read as browsers do, one with attributes in their place. Use it, with
+/// does not read as browsers do, one with attributes in their place, and texts in place of labels in HTML. Use it, with
 /// [`font_selector`] and a font size of 16, to draw the same SVG with usvg.
 ///
 /// # Errors
 /// [`BakeError::Svg`] for what is no SVG, [`BakeError::Limit`] for styles that ask for too much.
-pub fn styled_text(svg: &[u8]) -> Result<String, BakeError> {
+pub fn styled_text(svg: &[u8], fonts: &Arc<Database>) -> Result<String, BakeError> {
     let bytes = unpacked(svg)?;
     let text = checked_text(&bytes)?;
     let failed = |e| bake_error(&usvg::Error::ParsingFailed(e));
-    let styled = style::resolve(&document(text).map_err(failed)?, &Warnings::default())?;
+    let styled = style::resolve(
+        &document(text).map_err(failed)?,
+        &faces(fonts),
+        &Warnings::default(),
+    )?;
     Ok(styled.unwrap_or_else(|| text.to_owned()))
+}
+
+fn faces(database: &Arc<Database>) -> style::Faces<'_> {
+    style::Faces {
+        database,
+        select: font_selector,
+    }
 }
 
 fn unpacked(svg: &[u8]) -> Result<Cow<'_, [u8]>, BakeError> {
@@ -80,7 +93,7 @@ fn tree(
 ) -> Result<usvg::Tree, BakeError> {
     let failed = |e| bake_error(&usvg::Error::ParsingFailed(e));
     let document = document(text).map_err(failed)?;
-    match style::resolve(&document, warnings)? {
+    match style::resolve(&document, &faces(&options.fontdb), warnings)? {
         None => usvg::Tree::from_xmltree(&document, options).map_err(|e| bake_error(&e)),
         Some(text) => usvg::Tree::from_str(&text, options).map_err(|e| bake_error(&e)),
     }

@@ -77,7 +77,8 @@ impl Reference {
         // The same faces as a bake chooses; with others, glyphs would differ.
         options.font_resolver.select_font = vtex_baker::font_selector();
         // Styles that usvg does not know are those of the bake; docs/decisions/0028 says who checks them.
-        let text = vtex_baker::styled_text(svg).map_err(|error| error.to_string())?;
+        let text =
+            vtex_baker::styled_text(svg, &options.fontdb).map_err(|error| error.to_string())?;
         let tree = usvg::Tree::from_str(&text, &options).map_err(|error| error.to_string())?;
         let plain = match edges {
             Edges::Crisp => PlainPaths::new(&tree),

@@ -115,5 +115,6 @@ fn describe(face: &fontdb::FaceInfo) -> String {
 
 /// Whether an SVG may hold text. Gzipped files are not unpacked for this and count as yes.
 fn may_hold_text(svg: &[u8]) -> bool {
-    is_gzip(svg) || svg.windows(4).any(|window| window == b"text")
+    let has = |name: &[u8]| svg.windows(name.len()).any(|window| window == name);
+    is_gzip(svg) || has(b"text") || has(b"foreignObject")
 }
