@@ -68,6 +68,7 @@ pub(super) fn is_needed(
                     let declarations = sheet::declarations(&syntax::parse(value)?);
                     declarations.iter().any(declaration)
                 }
+                "pathLength" => true,
                 name if is_plain(value) || !is_read(name, node) => false,
                 name => {
                     let kind = property::kind(name).unwrap_or(Kind::Geometry(property::Axis::X));
@@ -223,7 +224,8 @@ pub(super) fn is_beyond_usvg(kind: Kind, values: &[Value]) -> bool {
             let words = words(values);
             let is_calculation =
                 |value: &&Value| matches!(value, Value::Function(name, _) if &**name == "calc");
-            words.iter().any(is_calculation)
+            let is_effect = is_word(values, "non-scaling-stroke");
+            is_effect || words.iter().any(is_calculation)
         }
     }
 }

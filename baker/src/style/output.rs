@@ -66,7 +66,7 @@ pub(super) fn write(
             continue;
         }
         if !is_left_out {
-            close(node, definitions, &mut out);
+            close(node, styled, definitions, &mut out);
         }
         let mut here = node;
         next = loop {
@@ -75,7 +75,7 @@ pub(super) fn write(
             }
             match here.parent().filter(|parent| parent.is_element()) {
                 Some(parent) => {
-                    close(parent, definitions, &mut out);
+                    close(parent, styled, definitions, &mut out);
                     here = parent;
                 }
                 None => break None,
@@ -135,7 +135,7 @@ fn open(node: Node<'_, '_>, styled: Option<&Styled>, out: &mut String) {
         NodeType::Root | NodeType::PI => return,
     }
     out.push('<');
-    out.push_str(node.tag_name().name());
+    out.push_str(name_of(node, styled));
     let namespace = namespace_of(node);
     let outer = node.parent_element().map(namespace_of);
     if outer != Some(namespace) {
@@ -207,7 +207,14 @@ fn label(node: Node<'_, '_>, styled: Option<&Styled>, content: &str, out: &mut S
     out.push_str("</g>");
 }
 
-fn close(node: Node<'_, '_>, definitions: &[String], out: &mut String) {
+fn name_of<'a>(node: Node<'a, '_>, styled: Option<&Styled>) -> &'a str {
+    match styled.is_some_and(|styled| styled.is_path) {
+        true => "path",
+        false => node.tag_name().name(),
+    }
+}
+
+fn close(node: Node<'_, '_>, styled: &[Option<Styled>], definitions: &[String], out: &mut String) {
     if !node.is_element() {
         return;
     }
@@ -217,7 +224,8 @@ fn close(node: Node<'_, '_>, definitions: &[String], out: &mut String) {
             .for_each(|definition| out.push_str(definition));
     }
     out.push_str("</");
-    out.push_str(node.tag_name().name());
+    let styled = styled.get(node.id().get_usize()).and_then(Option::as_ref);
+    out.push_str(name_of(node, styled));
     out.push('>');
 }
 

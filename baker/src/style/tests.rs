@@ -340,7 +340,7 @@ fn what_is_not_drawn_is_said() {
             "text-transform",
         ),
         (
-            "<rect style='vector-effect:var(--x,non-scaling-stroke)'/>",
+            "<rect transform='scale(1 2)' fill='url(#a)' style='vector-effect:var(--x,non-scaling-stroke)'/>",
             "vector-effect",
         ),
         ("<rect style='fill:paint(x)'/>", "fill"),

@@ -58,8 +58,9 @@ impl Boxes<'_> {
         }
     }
 
-    /// The canvas in the coordinates of `node`; `None` where another viewport lies between them.
-    fn canvas(&self, node: Node<'_, '_>) -> Option<Rect> {
+    /// The matrix from inside `node` to the root's coordinates; `None` where another viewport lies
+    /// between them, or where it is shown elsewhere.
+    pub(super) fn matrix_to_root(&self, node: Node<'_, '_>) -> Option<Affine> {
         let mut matrix = Affine::IDENTITY;
         for outer in node.ancestors() {
             match outer.tag_name().name() {
@@ -71,6 +72,12 @@ impl Boxes<'_> {
                 matrix = attribute_matrix(text)? * matrix;
             }
         }
+        Some(matrix)
+    }
+
+    /// The canvas in the coordinates of `node`; `None` where another viewport lies between them.
+    fn canvas(&self, node: Node<'_, '_>) -> Option<Rect> {
+        let matrix = self.matrix_to_root(node)?;
         let root = node.document().root_element();
         let canvas = match root.attribute("viewBox") {
             Some(text) => {

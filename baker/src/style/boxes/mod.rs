@@ -1,6 +1,7 @@
 //! What depends on the box of an element: matrices about an origin, and shapes that clip.
 
 mod filter;
+mod stroke;
 
 use kurbo::{Affine, BezPath, Rect, Shape as _};
 use std::rc::Rc;
@@ -45,7 +46,7 @@ impl Boxes<'_> {
             .filter(|n| super::elements::is_svg(*n))
             .collect();
         // Children first: the box of a group depends on their matrices.
-        for node in nodes.into_iter().rev() {
+        for &node in nodes.iter().rev() {
             let Some(styled) = self.of(node) else {
                 continue;
             };
@@ -63,6 +64,15 @@ impl Boxes<'_> {
             }
             if let Some(steps) = steps {
                 self.filter(node, &steps);
+            }
+        }
+        // With all matrices known.
+        for node in nodes {
+            if node.has_attribute("pathLength") {
+                let _ = self.path_length(node);
+            }
+            if self.keeps_stroke(node) && self.unscaled_stroke(node).is_none() {
+                failed.push((node, "vector-effect", "the stroke scales with its element"));
             }
         }
         failed

@@ -65,9 +65,6 @@ impl Computer<'_> {
             styled.attributes.insert(Rc::clone(name), None);
             return;
         }
-        if &**name == "vector-effect" {
-            self.vector_effect(node, last);
-        }
         let converter = self.converter(styled, outer);
         if kind == Kind::Filter {
             return self.filter(entries, &converter, styled);
@@ -205,14 +202,6 @@ impl Computer<'_> {
         if !nothing.contains(&text.to_ascii_lowercase().as_str()) {
             let message = format!("{}: {text} is not drawn", entry.name);
             self.report.missing(node, &entry.name, &message);
-        }
-    }
-
-    fn vector_effect(&self, node: Node<'_, '_>, entry: &Entry) {
-        let text = syntax::text(&entry.value);
-        if text.eq_ignore_ascii_case("non-scaling-stroke") {
-            let message = "the stroke scales with its element";
-            self.report.missing(node, "vector-effect", message);
         }
     }
 }
