@@ -69,6 +69,7 @@ pub(super) fn is_needed(
                     declarations.iter().any(declaration)
                 }
                 "pathLength" => true,
+                "color-interpolation" => value.eq_ignore_ascii_case("linearRGB"),
                 name if is_plain(value) || !is_read(name, node) => false,
                 name => {
                     let kind = property::kind(name).unwrap_or(Kind::Geometry(property::Axis::X));
@@ -149,6 +150,7 @@ fn declaration(declaration: &Declaration, filters: &Filters) -> bool {
     match name {
         "font" => value.iter().any(|value| value.is_delim('/')) || is_beyond_words(value),
         "background" | "mask-image" => true,
+        "color-interpolation" => is_word(value, "linearrgb"),
         "marker" => is_beyond_words(value),
         "mask" => !matches!(&**value, [Value::Url(_)]) && !is_word(value, "none"),
         "all" => true,

@@ -51,6 +51,9 @@ pub(super) fn write(
                 &mut out,
             );
         }
+        if let Some(Some(styled)) = styled.get(node.id().get_usize()) {
+            out += &styled.before;
+        }
         if !is_left_out {
             open(
                 node,

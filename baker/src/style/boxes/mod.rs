@@ -1,6 +1,7 @@
 //! What depends on the box of an element: matrices about an origin, and shapes that clip.
 
 mod filter;
+mod gradient;
 mod stroke;
 
 use kurbo::{Affine, BezPath, Rect, Shape as _};
@@ -68,6 +69,7 @@ impl Boxes<'_> {
         }
         // With all matrices known.
         for node in nodes {
+            self.mix_in_linear_light(node);
             if node.has_attribute("pathLength") {
                 let _ = self.path_length(node);
             }

@@ -31,6 +31,8 @@ pub(super) struct Styled {
     pub(super) transforms: BTreeMap<Rc<str>, Rc<[Value]>>,
     /// The shape that clips.
     pub(super) clip: Option<Rc<[Value]>>,
+    /// Elements that are written before it.
+    pub(super) before: String,
     /// Whether it is written as a path.
     pub(super) is_path: bool,
     /// The filter, where it needs elements of its own.
