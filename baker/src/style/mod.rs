@@ -60,15 +60,17 @@ pub(crate) fn resolve(
     // What the sheets say is said only where they are used.
     let told = Warnings::default();
     let sheets = Sheets::parse(&texts(document, medium), medium, &told)?;
+    let report = report::Report::new(document);
+    report.what_moves(document);
     let filters = needed::Filters::new(document);
     if !has_media(document) && !needed::is_needed(document, &sheets, &filters)? {
+        report.finish(warnings);
         return Ok(None);
     }
     told.into_list()
         .into_iter()
         .for_each(|warning| warnings.add(warning));
     let matcher = Matcher::new(document);
-    let report = report::Report::new(document);
     let mut variables = variables::Variables::default();
     let first = sheets.registered.iter().filter_map(|(name, first, _)| {
         first

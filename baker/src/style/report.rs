@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use usvg::roxmltree::{Document, Node};
 use vtex_format::WarningCode;
 
+use super::elements::is_svg;
 use crate::warning::Warnings;
 
 /// Collects what is not drawn: one warning for each feature and message, however many elements
@@ -62,6 +63,21 @@ impl Report {
         }
     }
 
+    /// Says which animations and scripts are left out.
+    pub(super) fn what_moves(&self, document: &Document<'_>) {
+        for node in document.descendants().filter(|node| is_svg(*node)) {
+            match node.tag_name().name() {
+                name @ ("animate" | "animateColor" | "animateMotion" | "animateTransform"
+                | "set") => {
+                    let message = format!("<{name}> is left out: the picture at rest is drawn");
+                    self.missing(node, "animation", &message);
+                }
+                "script" => self.missing(node, "script", "scripts do not run"),
+                _ => {}
+            }
+        }
+    }
+
     /// Adds what was said to the warnings of the bake.
     pub(super) fn finish(self, warnings: &Warnings) {
         for missing in self.told.into_inner().list {
@@ -83,5 +99,36 @@ impl Report {
                 format!("{message} (line {line}{more})"),
             );
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_moves_is_said_of_untouched_documents_too() {
+        let text = "<svg xmlns='http://www.w3.org/2000/svg'><path id='p'><animate/></path>\n<g><set \
+                    id='s'/><animate/></g><script>1</script></svg>";
+        let document = Document::parse(text).unwrap();
+        let warnings = Warnings::default();
+        let found = crate::style::tests::resolve(&document, &warnings).unwrap();
+        assert_eq!(found, None);
+        let list = warnings.into_list();
+        let said: Vec<_> = list.iter().map(|w| (&*w.feature, &*w.message)).collect();
+        assert_eq!(
+            said,
+            [
+                (
+                    "animation",
+                    "<animate> is left out: the picture at rest is drawn (line 1 and 1 element more)"
+                ),
+                (
+                    "animation",
+                    "<set> is left out: the picture at rest is drawn (line 2)"
+                ),
+                ("script", "scripts do not run (line 2)"),
+            ]
+        );
     }
 }
