@@ -4,7 +4,7 @@ use crate::style::property::{Axis, Kind};
 use crate::style::syntax::{self, Value, words};
 use crate::style::value::color::{Color, Surroundings, dialect};
 use crate::style::value::filter::{Shadow, Step};
-use crate::style::value::length::Quantity;
+use crate::style::value::length::{Quantity, named_font_size_px};
 use crate::style::value::number_text;
 
 /// What the value of one property is read with.
@@ -236,19 +236,8 @@ impl Converter<'_> {
 
     /// The computed size of a font.
     pub(in crate::style) fn font_size_px(&self, value: &Value) -> Option<f64> {
-        let size = match value.keyword().as_deref() {
-            // CSS Fonts 4, for a medium size of 16.
-            Some("xx-small") => 9.0,
-            Some("x-small") => 10.0,
-            Some("small") => 13.0,
-            Some("medium") => 16.0,
-            Some("large") => 18.0,
-            Some("x-large") => 24.0,
-            Some("xx-large") => 32.0,
-            Some("xxx-large") => 48.0,
-            Some("smaller") => self.outer_font_size_px / 1.2,
-            Some("larger") => self.outer_font_size_px * 1.2,
-            Some(_) => return None,
+        let size = match value.keyword() {
+            Some(name) => named_font_size_px(&name, self.outer_font_size_px)?,
             None => {
                 let mut units = self.around.units;
                 units.font_size_px = self.outer_font_size_px;

@@ -10,7 +10,7 @@ use crate::style::cascade::Entry;
 use crate::style::compute::Inherited;
 use crate::style::syntax::{self, Value, words};
 use crate::style::value::color::{Surroundings, dialect};
-use crate::style::value::length::{Quantity, Units};
+use crate::style::value::length::{Quantity, Units, named_font_size_px};
 
 /// What children inherit.
 #[derive(Clone, Debug)]
@@ -382,22 +382,14 @@ fn is_inline(tag: &str) -> bool {
 fn font_size(values: &[Value], units: Units<'_>, outer: &Look) -> Option<f64> {
     let words = words(values);
     let value = words.first()?;
-    let named = match value.keyword().as_deref() {
-        Some("xx-small") => 9.0,
-        Some("x-small") => 10.0,
-        Some("small") => 13.0,
-        Some("medium") => 16.0,
-        Some("large") => 18.0,
-        Some("x-large") => 24.0,
-        Some("xx-large") => 32.0,
-        Some("smaller") => outer.font_size_px / 1.2,
-        Some("larger") => outer.font_size_px * 1.2,
-        _ => match units.quantity(value)? {
+    let size = match value.keyword() {
+        Some(name) => named_font_size_px(&name, outer.font_size_px)?,
+        None => match units.quantity(value)? {
             Quantity::Number(px) if px != 0.0 => return None,
             quantity => quantity.length_px(outer.font_size_px)?,
         },
     };
-    (named >= 0.0).then_some(named)
+    (size >= 0.0).then_some(size)
 }
 
 /// `margin: a b c d` and `margin-top` and so on. Percentages and `auto` count as 0.

@@ -68,11 +68,9 @@ fn components(around: &Surroundings<'_>, name: &str, inner: &[Value]) -> Option<
     relative(around, origin, space, layout, three, alpha)
 }
 
-/// `color(space a b c / alpha)`.
-fn in_space(around: &Surroundings<'_>, inner: &[Value]) -> Option<DynamicColor> {
-    let (origin, rest) = origin(around, trim(inner))?;
-    let (name, rest) = rest.split_first()?;
-    let space = match name.keyword()?.as_str() {
+/// A space of three amounts of light by its name.
+fn light_space(name: &str) -> Option<Space> {
+    Some(match name {
         "srgb" => Space::Srgb,
         "srgb-linear" => Space::LinearSrgb,
         "display-p3" => Space::DisplayP3,
@@ -82,7 +80,14 @@ fn in_space(around: &Surroundings<'_>, inner: &[Value]) -> Option<DynamicColor> 
         "xyz" | "xyz-d65" => Space::XyzD65,
         "xyz-d50" => Space::XyzD50,
         _ => return None,
-    };
+    })
+}
+
+/// `color(space a b c / alpha)`.
+fn in_space(around: &Surroundings<'_>, inner: &[Value]) -> Option<DynamicColor> {
+    let (origin, rest) = origin(around, trim(inner))?;
+    let (name, rest) = rest.split_first()?;
+    let space = light_space(&name.keyword()?)?;
     let names = match space {
         Space::XyzD50 | Space::XyzD65 => ["x", "y", "z"],
         _ => ["r", "g", "b"],
@@ -264,22 +269,15 @@ fn space(method: &[&Value]) -> Option<(Space, HueDirection)> {
         Some((first, rest)) => (first.keyword()?, rest),
     };
     let (space, way) = rest.split_first()?;
-    let space = match space.keyword()?.as_str() {
-        "srgb" => Space::Srgb,
-        "srgb-linear" => Space::LinearSrgb,
-        "display-p3" => Space::DisplayP3,
-        "a98-rgb" => Space::A98Rgb,
-        "prophoto-rgb" => Space::ProphotoRgb,
-        "rec2020" => Space::Rec2020,
+    let name = space.keyword()?;
+    let space = match name.as_str() {
         "lab" => Space::Lab,
         "oklab" => Space::Oklab,
-        "xyz" | "xyz-d65" => Space::XyzD65,
-        "xyz-d50" => Space::XyzD50,
         "hsl" => Space::Hsl,
         "hwb" => Space::Hwb,
         "lch" => Space::Lch,
         "oklch" => Space::Oklch,
-        _ => return None,
+        other => light_space(other)?,
     };
     let hue = match way {
         [] => HueDirection::Shorter,

@@ -304,6 +304,23 @@ fn scientific(name: &str, first: Quantity, a: f64, rest: &[f64]) -> Option<Quant
     })
 }
 
+/// A font size by its name, where that of the parent is `outer_px` (CSS Fonts 4, for a medium size of 16).
+pub(in crate::style) fn named_font_size_px(name: &str, outer_px: f64) -> Option<f64> {
+    Some(match name {
+        "xx-small" => 9.0,
+        "x-small" => 10.0,
+        "small" => 13.0,
+        "medium" => 16.0,
+        "large" => 18.0,
+        "x-large" => 24.0,
+        "xx-large" => 32.0,
+        "xxx-large" => 48.0,
+        "smaller" => outer_px / 1.2,
+        "larger" => outer_px * 1.2,
+        _ => return None,
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
