@@ -189,7 +189,7 @@ mod half = "HALF" {
 /// an entry carries what belongs to all of it: index, base, kind, rule, opaque and last.
 ///
 /// Where a list for points ends with two opaque entries, curves and a paint that fills the cell, both are
-/// one entry, with [`BACKDROP_BIT`](cmd::BACKDROP_BIT). A third of all entries are such backdrops.
+/// one entry, with [`BACKDROP_BIT`](cmd::BACKDROP_BIT). A fifth of all entries were such backdrops.
 ///
 /// An entry that draws nothing has [`CONTROL_BIT`](cmd::CONTROL_BIT) there. A branch is curves;
 /// others are one command whose kind is full, with [`JUMP`](cmd::JUMP), [`OPEN`](cmd::OPEN),

@@ -90,12 +90,18 @@ pub struct LayerKinds {
 
 /// `context` for a path tracer with code for these layers; without this, for all of them.
 pub fn with_layers(context: LinkContext, kinds: LayerKinds) -> LinkContext {
-    let text = format!(
-        "const LAYERS_HAVE_COATS: bool = {};\nconst LAYERS_HAVE_GLASS: bool = {};\n\
-         const LAYERS_HAVE_COLORS: bool = {};\n",
-        kinds.coats, kinds.glass, kinds.colors
-    );
+    let text = flags([
+        ("LAYERS_HAVE_COATS", kinds.coats),
+        ("LAYERS_HAVE_GLASS", kinds.glass),
+        ("LAYERS_HAVE_COLORS", kinds.colors),
+    ]);
     context.define("trace/layer/kinds", text)
+}
+
+/// A module of constants that say what there is code for.
+fn flags<const N: usize>(values: [(&str, bool); N]) -> String {
+    let lines = values.map(|(name, value)| format!("const {name}: bool = {value};\n"));
+    lines.concat()
 }
 
 /// Kinds of light that a scene has; see [`with_lights`].
@@ -111,11 +117,11 @@ pub struct LightKinds {
 
 /// `context` for a path tracer with code for these kinds of light; without this, for all of them.
 pub fn with_lights(context: LinkContext, kinds: LightKinds) -> LinkContext {
-    let text = format!(
-        "const LIGHTS_HAVE_AREAS: bool = {};\nconst LIGHTS_HAVE_PUNCTUAL: bool = {};\n\
-         const LIGHTS_HAVE_ENVIRONMENT: bool = {};\n",
-        kinds.areas, kinds.punctual, kinds.environment
-    );
+    let text = flags([
+        ("LIGHTS_HAVE_AREAS", kinds.areas),
+        ("LIGHTS_HAVE_PUNCTUAL", kinds.punctual),
+        ("LIGHTS_HAVE_ENVIRONMENT", kinds.environment),
+    ]);
     context.define("trace/light/kinds", text)
 }
 

@@ -1,7 +1,5 @@
 //! A packed texture's bindings: words, texels, sampler.
 
-use std::borrow::Cow;
-
 use vtex_shaders::TexelPages;
 use wgpu::{
     AddressMode, BindGroupEntry, BindGroupLayoutEntry, BindingResource, BindingType, Buffer,
@@ -44,15 +42,15 @@ impl TexelFormat {
         }
     }
 
-    /// Pages as a copy to a texture wants them.
-    pub(crate) fn data(self, pages: &TexelPages) -> Cow<'_, [u8]> {
+    /// What a copy to a texture wants instead of the pages' own bytes.
+    pub(crate) fn encoded(self, pages: &TexelPages) -> Option<Vec<u8>> {
         match self {
-            Self::Rgba8 => Cow::Borrowed(pages.bytes()),
-            Self::Bc7 => Cow::Owned(pages.blocks()),
+            Self::Rgba8 => None,
+            Self::Bc7 => Some(pages.blocks()),
         }
     }
 
-    /// Where in [`Self::data`] the rows of a page are.
+    /// Where in the bytes of a copy the rows of a page are.
     pub(crate) fn layout(self, pages: &TexelPages, page: u32) -> TexelCopyBufferLayout {
         let [width, height] = pages.size();
         // Blocks of 4 x 4 texels have 16 bytes.
@@ -157,8 +155,9 @@ fn texel_pages(
 ) -> Result<TextureView, RuntimeError> {
     let texture = page_array(device, pages.size(), pages.count(), format)?;
     let texels = texture.as_image_copy();
-    let data = format.data(pages);
-    queue.write_texture(texels, &data, format.layout(pages, 0), texture.size());
+    let encoded = format.encoded(pages);
+    let data = encoded.as_deref().unwrap_or(pages.bytes());
+    queue.write_texture(texels, data, format.layout(pages, 0), texture.size());
     Ok(array_view(&texture))
 }
 

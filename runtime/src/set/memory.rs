@@ -23,6 +23,8 @@ pub(super) struct Memory {
 pub(super) struct Change<'a> {
     pub(super) plan: &'a Plan,
     pub(super) textures: &'a [Packed],
+    /// Their pages as the device is to have them, where that is not as they are packed.
+    pub(super) encoded: &'a [Option<Vec<u8>>],
     pub(super) fixed: &'a Fixed,
 }
 
@@ -85,7 +87,9 @@ impl Memory {
             let texture = &change.textures[index];
             if let Some(member) = space.handles.get(handle) {
                 self.write_words(queue, 4 * space.first_group(member), &texture.words);
-                self.write_rooms(queue, member, &texture.texels, change.fixed.texels);
+                let encoded = change.encoded.get(index).and_then(Option::as_deref);
+                let data = encoded.unwrap_or(texture.texels.bytes());
+                self.write_rooms(queue, member, (&texture.texels, data), change.fixed.texels);
                 if moves.is_none() {
                     self.write_entry(queue, space, handle);
                 }
@@ -108,13 +112,9 @@ impl Memory {
         &self,
         queue: &Queue,
         member: &Member,
-        texels: &TexelPages,
+        (texels, data): (&TexelPages, &[u8]),
         format: TexelFormat,
     ) {
-        if member.rooms.is_empty() {
-            return;
-        }
-        let data = format.data(texels);
         let [width, height] = texels.size();
         for (page, room) in (0..).zip(&member.rooms) {
             let [x, y] = room.place.corner;
@@ -128,7 +128,7 @@ impl Memory {
                 height,
                 depth_or_array_layers: 1,
             };
-            queue.write_texture(to, &data, format.layout(texels, page), extent);
+            queue.write_texture(to, data, format.layout(texels, page), extent);
         }
     }
 }

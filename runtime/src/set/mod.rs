@@ -164,7 +164,7 @@ impl TextureSet {
             };
             let bounds = options.bounds(device, fixed.nothing.len());
             let (first, _) = Space::of_pool(0).with(&mut [], &[], &bounds);
-            let make = |plan| Pool::changed(None, (device, queue), plan, &[], &fixed);
+            let make = |plan| Pool::changed(None, (device, queue), plan, (&[], &[]), &fixed);
             let pools: Vec<Pool> = first.into_iter().map(make).collect::<Result<_, _>>()?;
             Ok((fixed, pools))
         })
@@ -255,9 +255,12 @@ impl TextureSet {
         let bounds = options.bounds(&self.device, self.fixed.nothing.len());
         let budget = Budget::new(options, &bounds, &self.bytes(), self.fixed.texels);
         let made = map_all(textures, options.threads, |texture| {
-            budget.spend(|| make(texture, bounds.pages.side))
+            let made = budget.spend(|| make(texture, bounds.pages.side))?;
+            let encoded = self.fixed.texels.encoded(&made.packed.texels);
+            Ok::<_, RuntimeError>((made, encoded))
         });
-        let made: Vec<Made> = made.into_iter().collect::<Result<_, _>>()?;
+        let made: Vec<_> = made.into_iter().collect::<Result<_, _>>()?;
+        let (made, encoded): (Vec<Made>, Vec<_>) = made.into_iter().unzip();
         budget.check()?;
         let needed = made
             .iter()
@@ -270,7 +273,7 @@ impl TextureSet {
             let on = (&self.device, &self.queue);
             let change = |plan: Plan| {
                 let before = self.pools.get(plan.space.handles.pool() as usize);
-                Pool::changed(before, on, plan, &packed, &self.fixed)
+                Pool::changed(before, on, plan, (&packed, &encoded), &self.fixed)
             };
             let pools = plans.into_iter().map(change);
             pools.collect::<Result<Vec<Pool>, RuntimeError>>()
@@ -423,12 +426,13 @@ impl Pool {
         before: Option<&Self>,
         (device, queue): (&Device, &Queue),
         plan: Plan,
-        textures: &[Packed],
+        (textures, encoded): (&[Packed], &[Option<Vec<u8>>]),
         fixed: &Fixed,
     ) -> Result<Self, RuntimeError> {
         let change = Change {
             plan: &plan,
             textures,
+            encoded,
             fixed,
         };
         let before = before.map(|pool| &pool.memory);

@@ -1,5 +1,6 @@
 //!use trace/bindings
 //!use trace/ray
+//!use trace/stack
 //!use trace/world/instance
 //!use trace/world/levels
 //!use trace/world/cutout
@@ -82,6 +83,33 @@ fn bvh_hit_node(node: u32, ray: Ray, t_max: f32, octant_inverse4: u32) -> vec4u 
     let mask = bvh_hit_children(link.z, low0, high0, scale, base, t_max, octant_inverse4)
         | bvh_hit_children(link.w, low1, high1, scale, base, t_max, octant_inverse4);
     return vec4u(link.x, (mask & 0xff000000u) | bvh_byte(box.w, 3u), link.y, mask & 0x00ffffffu);
+}
+
+// Comes back to `nodes` later. The host refuses trees that need a deeper stack.
+fn bvh_push(stack: ptr<function, Stack>, stack_size: ptr<function, u32>, nodes: vec2u) {
+    if *stack_size < STACK_SIZE {
+        stack_put(stack, *stack_size, nodes);
+        *stack_size += 1u;
+    }
+}
+
+// Goes into the first of `nodes`, whose others wait on the stack: what bvh_hit_node finds there.
+fn bvh_enter(
+    stack: ptr<function, Stack>,
+    stack_size: ptr<function, u32>,
+    nodes: vec2u,
+    ray: Ray,
+    t_max: f32,
+    octant_inverse4: u32,
+) -> vec4u {
+    let offset = firstLeadingBit(nodes.y);
+    let others = nodes.y & ~(1u << offset);
+    if others > 0x00ffffffu {
+        bvh_push(stack, stack_size, vec2u(nodes.x, others));
+    }
+    let slot = (offset - 24u) ^ (octant_inverse4 & 0xffu);
+    let child = nodes.x + countOneBits(nodes.y & ~(0xffffffffu << slot));
+    return bvh_hit_node(child, ray, t_max, octant_inverse4);
 }
 
 fn bvh_dot(a: vec3f, b: vec3f) -> f32 {

@@ -26,16 +26,7 @@ fn bvh_traverse(ray: Ray, any_hit: bool) -> Hit {
         // Triangles that an instance among them held up come from the stack, as nodes do.
         var triangles = vec2u(nodes.x, nodes.y & 0x00ffffffu);
         if nodes.y > 0x00ffffffu {
-            let offset = firstLeadingBit(nodes.y);
-            let inner_mask = nodes.y;
-            nodes.y &= ~(1u << offset);
-            if nodes.y > 0x00ffffffu && stack_size < STACK_SIZE {
-                stack_put(&stack, stack_size, nodes);
-                stack_size += 1u;
-            }
-            let slot = (offset - 24u) ^ (octant_inverse4 & 0xffu);
-            let child = nodes.x + countOneBits(inner_mask & ~(0xffffffffu << slot));
-            let found = bvh_hit_node(child, local, hit.t, octant_inverse4);
+            let found = bvh_enter(&stack, &stack_size, nodes, local, hit.t, octant_inverse4);
             nodes = found.xy;
             triangles = found.zw;
         } else {
@@ -54,13 +45,11 @@ fn bvh_traverse(ray: Ray, any_hit: bool) -> Hit {
                 }
                 continue;
             }
-            if nodes.y > 0x00ffffffu && stack_size < STACK_SIZE {
-                stack_put(&stack, stack_size, nodes);
-                stack_size += 1u;
+            if nodes.y > 0x00ffffffu {
+                bvh_push(&stack, &stack_size, nodes);
             }
-            if triangles.y != 0u && stack_size < STACK_SIZE {
-                stack_put(&stack, stack_size, triangles);
-                stack_size += 1u;
+            if triangles.y != 0u {
+                bvh_push(&stack, &stack_size, triangles);
             }
             stack_floor = stack_size;
             instance = link;

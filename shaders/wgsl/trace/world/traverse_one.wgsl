@@ -14,16 +14,7 @@ fn bvh_traverse(ray: Ray, any_hit: bool) -> Hit {
     var stack_size = 0u;
     var nodes = vec2u(0u, 0x80000000u);
     for (var visit = 0u; visit < BVH_MAX_VISITS; visit++) {
-        let offset = firstLeadingBit(nodes.y);
-        let inner_mask = nodes.y;
-        nodes.y &= ~(1u << offset);
-        if nodes.y > 0x00ffffffu && stack_size < STACK_SIZE {
-            stack_put(&stack, stack_size, nodes);
-            stack_size += 1u;
-        }
-        let slot = (offset - 24u) ^ (octant_inverse4 & 0xffu);
-        let child = nodes.x + countOneBits(inner_mask & ~(0xffffffffu << slot));
-        let found = bvh_hit_node(child, ray, hit.t, octant_inverse4);
+        let found = bvh_enter(&stack, &stack_size, nodes, ray, hit.t, octant_inverse4);
         nodes = found.xy;
         var triangles = found.w;
         // At most 24: one bit each.
