@@ -32,7 +32,8 @@ pub(super) fn viewport_of(svg: Node<'_, '_>) -> Option<[f64; 2]> {
     view_box(svg).or_else(|| Some([size("width")?, size("height")?]))
 }
 
-fn view_box(svg: Node<'_, '_>) -> Option<[f64; 2]> {
+/// Width and height of the `viewBox`, both greater than 0.
+pub(super) fn view_box(svg: Node<'_, '_>) -> Option<[f64; 2]> {
     let view: svgtypes::ViewBox = svg.attribute("viewBox")?.parse().ok()?;
     (view.w > 0.0 && view.h > 0.0).then_some([view.w, view.h])
 }

@@ -37,10 +37,7 @@ impl Boxes<'_> {
     pub(super) fn finish<'d>(
         &mut self,
         document: &'d Document<'_>,
-    ) -> Vec<(Node<'d, 'd>, &'static str, &'static str)>
-    where
-        'd: 'd,
-    {
+    ) -> Vec<(Node<'d, 'd>, &'static str, &'static str)> {
         let mut failed = Vec::new();
         let nodes: Vec<Node<'_, '_>> = document
             .descendants()

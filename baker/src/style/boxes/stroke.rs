@@ -4,7 +4,7 @@ use kurbo::{Affine, BezPath, Circle, Ellipse, Line, Point, RoundedRect, Shape as
 use usvg::roxmltree::Node;
 
 use super::{Boxes, attribute_matrix};
-use crate::style::elements::px;
+use crate::style::elements::{px, view_box};
 use crate::style::syntax::{self, Value, words};
 use crate::style::value::number_text;
 
@@ -109,11 +109,11 @@ impl Boxes<'_> {
     /// Pixels of a user unit of the root.
     fn root_scale(&self, node: Node<'_, '_>) -> Option<f64> {
         let root = node.document().root_element();
-        let Some(text) = root.attribute("viewBox") else {
+        if !root.has_attribute("viewBox") {
             return Some(1.0);
-        };
-        let view: svgtypes::ViewBox = text.parse().ok()?;
-        let scale = f64::min(self.canvas_px[0] / view.w, self.canvas_px[1] / view.h);
+        }
+        let [width, height] = view_box(root)?;
+        let scale = f64::min(self.canvas_px[0] / width, self.canvas_px[1] / height);
         (scale.is_finite() && scale > 0.0).then_some(scale)
     }
 
