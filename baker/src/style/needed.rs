@@ -69,6 +69,8 @@ pub(super) fn is_needed(
                     declarations.iter().any(declaration)
                 }
                 "pathLength" => true,
+                // A foreignObject is passed over all the same.
+                "requiredFeatures" => node.tag_name().name() != "foreignObject",
                 "color-interpolation" => value.eq_ignore_ascii_case("linearRGB"),
                 name if is_plain(value) || !is_read(name, node) => false,
                 name => {

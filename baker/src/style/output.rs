@@ -154,12 +154,11 @@ fn open(node: Node<'_, '_>, styled: Option<&Styled>, out: &mut String) {
 /// Writes the attributes of `node`, with those that it gets.
 fn attributes(node: Node<'_, '_>, styled: Option<&Styled>, out: &mut String) {
     let is_label = node.tag_name().name() == "foreignObject";
-    let is_dropped = |name: &str| {
-        is_label
-            && matches!(
-                name,
-                "x" | "y" | "width" | "height" | "requiredExtensions" | "requiredFeatures"
-            )
+    let is_dropped = |name: &str| match name {
+        // SVG 2 has it no more, and browsers pass over it.
+        "requiredFeatures" => true,
+        "x" | "y" | "width" | "height" | "requiredExtensions" => is_label,
+        _ => false,
     };
     for found in node.attributes() {
         let prefix = match found.namespace() {
